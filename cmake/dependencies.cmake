@@ -1,0 +1,30 @@
+# Third parties, each as one imported target. Headers are SYSTEM: their warnings are not ours.
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+
+if(PREHENSILE_NLOPT)
+  find_package(NLopt REQUIRED)
+endif()
+
+if(PREHENSILE_IPOPT)
+  find_package(Ipopt MODULE REQUIRED)
+endif()
+
+if(PREHENSILE_OMPL)
+  # OMPL 1.5 exports variables, no target.
+  find_package(ompl 1.5 REQUIRED)
+  add_library(prehensile_ompl INTERFACE)
+  target_include_directories(prehensile_ompl SYSTEM INTERFACE ${OMPL_INCLUDE_DIRS})
+  target_link_libraries(prehensile_ompl INTERFACE ${OMPL_LIBRARIES})
+endif()
+
+if(PREHENSILE_APPS)
+  find_package(yaml-cpp 0.7 REQUIRED)
+  add_library(prehensile_yaml INTERFACE)
+  target_link_libraries(prehensile_yaml INTERFACE yaml-cpp)
+  find_package(nlohmann_json 3.11 REQUIRED)
+  find_package(CLI11 REQUIRED)
+endif()
+
+if(PREHENSILE_TESTS)
+  find_package(GTest REQUIRED)
+endif()

@@ -1,0 +1,56 @@
+/// The certificate of an instant: residuals computed from the question and the answer
+/// alone. Shares no code with any solver; its rows are derived here again.
+///
+/// Every entry is dimensionless (units F0, V0, L0 of MECHANICS 5, computed here), 0 is
+/// perfect, and carries the index of its worst point. Source: paper section VI-A, the
+/// entries of the checks below in that order.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "mechanics/instant.h"
+
+namespace prehensile {
+
+struct CertificateEntry {
+  double value = kNan;
+  int worst = -1;  ///< index of the contact point (pusher points after finger points), or row
+};
+
+struct Certificate {
+  enum Check {
+    kNewton,         ///< balance of wrenches, paper eq. (8)
+    kPenetration,    ///< normal forces and normal rates >= 0
+    kComplementary,  ///< normal force x normal rate = 0
+    kFrictionCone,   ///< |friction| <= mu x normal force, paper eq. (1) with mu^2
+    kSlipDirection,  ///< friction opposes slip at full strength, paper eq. (3), (4)
+    kDissipation,    ///< friction never gains power
+    kPusherMotion,   ///< pusher rates are those prescribed
+    kEvidence,       ///< what the status claims is so (DYNAMIC, AMBIGUOUS, HOLDS, ...)
+    kCheckCount
+  };
+  std::array<CertificateEntry, kCheckCount> entries;
+  double worst = kNan;  ///< largest entry
+
+  /// Accepted: every entry finite and at most `tolerance`.
+  bool holds(double tolerance = 1e-6) const { return worst <= tolerance; }
+};
+std::string_view name(Certificate::Check check);
+
+/// Checks an answer. An answer without a motion is accepted only if its evidence is valid;
+/// kNotRun, kOutOfIterations and kBadInput are never accepted.
+Certificate certify(const PlanarGrasp& grasp, const PlanarDrive& drive,
+                    const PlanarInstant& answer) noexcept;
+
+/// Two-sided bounds on the push force for a given direction of the push wrench p (per unit
+/// of force), MECHANICS eq. (4): any twist u with p.u = 1 gives an upper bound.
+/// Valid in the quasi-static limit with known finger loads.
+double force_upper_bound(const PlanarGrasp& grasp, const PlanarWrench& p,
+                         const PlanarTwist& u) noexcept;
+
+/// Whether the fingers alone hold gravity: least slack of D(u) - w_g.u over unit twists u,
+/// in units of F0; positive means held. `worst` receives the minimising twist.
+double gravity_slack(const PlanarGrasp& grasp, PlanarTwist* worst = nullptr) noexcept;
+
+}  // namespace prehensile

@@ -1,0 +1,109 @@
+/// `prepare(scene)`: the scene compiled into constants, with everything that the scene
+/// lacks left out, and the reasons written down.
+///
+/// A Model never changes afterwards and may be shared between threads.
+#pragma once
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "mechanics/cross_section.h"
+#include "mechanics/limit_surface.h"
+#include "mechanics/planar_problem.h"
+#include "scene/contact_region.h"
+#include "scene/outline.h"
+#include "scene/scene.h"
+
+namespace prehensile {
+
+/// A pusher flush with a face of the object: the pair that a push names. In O. While it
+/// touches, the object's attitude in W is fixed, and with it gravity in O.
+struct PushContact {
+  int pusher = 0;  ///< index in Scene::pushers
+  int face = 0;    ///< index in Model::faces
+  Vec2 n, t;       ///< of the face; n into the object
+  Vec2 a, b;       ///< [m] ends of the face, b after a along t
+  double mu = 0.0;
+  bool is_point = false;
+  double half_length = 0.0;  ///< [m] of the pusher; infinity: longer than the face; 0: point
+  Vec2 g_O = Vec2::Zero();   ///< [m/s^2] gravity in O during contact
+  double theta_WO = 0.0;     ///< [rad] attitude of the object in W during contact
+
+  /// Ends of the part of the face that carries load when the centre of the pusher stands at
+  /// `place` [m along t from the centre of the face]. One point for a point pusher (a == b).
+  struct Segment {
+    Vec2 a, b;
+  };
+  Segment segment(double place) const;
+};
+
+/// One thing that was left out, or decided, and why: shown by `prehensile inspect`.
+struct Decision {
+  std::string what;
+  std::string why;
+};
+
+struct PrepareOptions {
+  int points_per_pad = 16;  ///< quadrature of an unclipped pad: 1, 4, 8, 16, 32 or 64
+};
+
+struct Model {
+  Scene scene;
+  PrepareOptions options;
+
+  std::vector<Vec2> outline;          ///< in O
+  std::vector<Face> faces;            ///< in O
+  std::vector<PushContact> contacts;  ///< everything a planar push may name
+  ContactRegion region;
+
+  Vec2 p_OCom = Vec2::Zero();  ///< [m]
+  double mass = 0.0;           ///< [kg]
+  double inertia = 0.0;        ///< [kg m^2] about z through the centre of mass
+  double F = 0.0;              ///< [N] (mu_1 + mu_2) x grip force
+  double c = 0.0;              ///< [m] torque radius of the whole pad region
+  double L = 0.0;              ///< [m] longer side of the object: unit of travel in costs
+  LimitSurface surface() const { return {F, c}; }
+
+  /// Rolling; absent unless the object is round and lies between the jaws.
+  std::optional<CrossSectionModel> cross_section;
+
+  std::vector<Decision> decisions;
+
+  /// Dimensions of the planner's state: 3 (x, y, theta), 4 with roll.
+  int state_dimensions() const { return cross_section ? 4 : 3; }
+};
+
+/// Thrown by prepare for a scene that `check` rejects; cold path only.
+class BadScene : public std::runtime_error {
+ public:
+  explicit BadScene(std::vector<Fault> faults);
+  const std::vector<Fault>& faults() const { return faults_; }
+
+ private:
+  std::vector<Fault> faults_;
+};
+
+/// Compiles a scene. Throws BadScene with all faults.
+Model prepare(const Scene& scene, const PrepareOptions& options = {});
+
+/// The grasp at a pose, with gravity g_O [m/s^2] in O; no heap. `count` is 0 where the pads
+/// have lost the face.
+PlanarGrasp grasp_at(const Model& model, const PlanarPose& X_HO, const Vec2& g_O) noexcept;
+
+/// Fills the inertia of a grasp, so that rates become accelerations from rest.
+void add_inertia(const Model& model, const PlanarPose& X_HO, PlanarGrasp& grasp) noexcept;
+
+/// The contact as a drive at a pose: `place` as in PushContact::segment, V_HP the twist of
+/// the pusher in H.
+PlanarDrive drive_at(const PushContact& contact, double place, const PlanarPose& X_HO,
+                     const PlanarTwist& V_HP) noexcept;
+
+/// The pose is valid: the centre of each pad lies on the face, and the pads touch.
+bool pads_on_object(const Model& model, const PlanarPose& X_HO) noexcept;
+
+/// Index of the contact of this pusher (by name) with this face (empty: its first), or -1.
+int find_contact(const Model& model, const std::string& pusher, const std::string& face);
+
+}  // namespace prehensile

@@ -1,0 +1,42 @@
+/// The planner: from a prepared scene to a certified plan, or a proof, or an honest "not
+/// found within the budget".
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "planner/plan.h"
+
+namespace prehensile {
+
+struct PlanOptions {
+  std::string planner = "push";  ///< see planner_names(); "push" is our own
+  std::uint64_t seed = 1;
+  std::int64_t budget = 20'000'000;  ///< stick tests (own planner) or propagations (stock)
+  double time_limit = 0.0;  ///< [s]; 0: none. The only way in which the clock decides
+  Margin margin;            ///< plan for this box; doubled once if the exact check fails
+  bool polish = true;       ///< shorten the plan found with NLopt, where built
+  TransitionOptions transition;  ///< of the exact check
+  const std::atomic<bool>* stop = nullptr;  ///< set by a signal handler: give up cleanly
+};
+
+/// Names that PlanOptions::planner accepts in this build.
+std::vector<std::string> planner_names();
+
+/// Plans from the scene's start to its goal.
+Plan plan_regrasp(const Model& model, const PlanOptions& options = {});
+
+/// Whether a grasp satisfies the goal.
+bool reaches(const Goal& goal, const Grasp& grasp);
+
+/// Distance to the goal: 0 inside; per-coordinate test: worst ratio to its tolerance minus
+/// 1; weighted sum: excess [m].
+double goal_excess(const Goal& goal, const Grasp& grasp);
+
+/// Verifies a proof of infeasibility from the model alone; shares no code with the search.
+/// On false `why` says what does not hold.
+bool verify(const Model& model, const Proof& proof, std::string* why = nullptr);
+
+}  // namespace prehensile

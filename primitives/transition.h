@@ -1,0 +1,88 @@
+/// The transition function: a push goes in, a new in-hand pose comes out, with the forces
+/// along the way, the events, an error estimate and the reason for stopping.
+///
+/// Each instant is solved by the exact planar mechanics (roll: the cross-section) and
+/// certified. While the pusher sticks, the object follows the pusher's exact rigid motion;
+/// while it slips, the twist is integrated with adaptive steps (Dormand-Prince 5(4)) and
+/// the stick-slip events are located.
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "mechanics/certificate.h"
+#include "mechanics/planar_instant.h"
+#include "primitives/push.h"
+
+namespace prehensile {
+
+enum class TransitionStatus {
+  kNotRun,
+  kCompleted,       ///< the whole push was done
+  kLeftGuard,       ///< valid motion, but no longer the named primitive; stopped there
+  kPusherLost,      ///< the pusher left the face or the object left the pusher
+  kPadLost,         ///< the centre of the pads left the face
+  kFalls,           ///< the grasp no longer holds gravity
+  kJammed,          ///< no motion possible
+  kAmbiguous,       ///< two motions possible; stopped rather than guess
+  kUncertified,     ///< an instant failed its certificate
+  kIterationLimit,  ///< steps or Newton iterations used up
+  kRefused,         ///< the push is not possible here: see `reason`
+};
+std::string_view name(TransitionStatus status);
+
+enum class EventKind {
+  kStick, kSlip, kCorner, kPusherOffFace, kPadOffFace, kContactLost, kGravityLost, kGuard
+};
+std::string_view name(EventKind kind);
+
+struct Event {
+  EventKind kind = EventKind::kStick;
+  double s = 0.0;  ///< share of the push at which it happened
+};
+
+struct TransitionOptions {
+  double tolerance = 1e-6;      ///< [m] accepted error of the end pose (angles weigh c)
+  double max_step = 0.05;       ///< share of the push; also the spacing of checks on stick
+  int max_steps = 2000;
+  double certificate_tolerance = 1e-6;
+};
+
+/// One point of the path.
+struct Sample {
+  double s = 0.0;
+  Grasp grasp;
+  double push_force = kNan;        ///< [N]
+  double normal_force = kNan;      ///< [N]
+  double tangential_force = kNan;  ///< [N]
+  double slip_rate = kNan;         ///< object relative to pusher, per unit of s [m]
+  InstantStatus status = InstantStatus::kNotRun;
+  double certificate = kNan;       ///< worst entry
+};
+
+struct Transition {
+  static constexpr int kMaxEvents = 16;
+
+  TransitionStatus status = TransitionStatus::kNotRun;
+  std::string_view reason;  ///< static text for people; empty if completed
+  Grasp end;                ///< pose where the push ended
+  double done = 0.0;        ///< share of the push, 0..1
+  double error_estimate = kNan;    ///< [m] of the end pose
+  double slipped = 0.0;            ///< [m] path of the contact along the pusher
+  double max_push_force = kNan;    ///< [N]
+  double min_push_force = kNan;    ///< [N]
+  double worst_certificate = kNan;
+  int instants = 0;                ///< mechanics calls
+  int event_count = 0;
+  std::array<Event, kMaxEvents> events;
+
+  bool completed() const { return status == TransitionStatus::kCompleted; }
+};
+
+/// Applies a push at a grasp. No heap unless `trace` is given, which receives the samples.
+Transition apply(const Model& model, const Grasp& start, const Push& push,
+                 const TransitionOptions& options = {},
+                 std::vector<Sample>* trace = nullptr) noexcept;
+
+}  // namespace prehensile

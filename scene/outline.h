@@ -1,0 +1,59 @@
+/// The object seen along the closing direction: its outline in the pad plane of O, and the
+/// straight faces of that outline that a pusher can touch.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace prehensile {
+
+/// A straight face. n is the unit normal into the object, t = perp(n); the ends are
+/// ordered so that b lies after a along t. All in O.
+struct Face {
+  std::string name;  ///< "-x", "+x", "-y", "+y" for box and bar, "edge0", ... for a prism
+  Vec2 a, b;         ///< [m]
+  Vec2 n, t;
+  bool on_hull = true;  ///< false: in a notch, a wall longer than the notch cannot reach it
+
+  double length() const { return (b - a).norm(); }
+  Vec2 centre() const { return 0.5 * (a + b); }
+};
+
+/// Mass properties of the homogeneous outline.
+struct OutlineProperties {
+  double area = 0.0;             ///< [m^2]
+  Vec2 centroid = Vec2::Zero();  ///< [m] in O
+  double polar = 0.0;            ///< [m^4] second moment about the centroid
+};
+
+/// Counter-clockwise outline in O [m]. A cylinder held at its flat ends gives the regular
+/// polygon of 64 edges with the area of its circle.
+std::vector<Vec2> outline_of(const Shape& shape);
+
+/// Flush faces; empty for a cylinder held at its flat ends, whose rim is round.
+std::vector<Face> faces_of(const Shape& shape);
+
+OutlineProperties properties_of(const std::vector<Vec2>& outline);
+
+/// Inside or on the border.
+bool contains(const std::vector<Vec2>& outline, const Vec2& p_O);
+
+/// Distance from p to the border, positive inside, negative outside [m].
+double depth_inside(const std::vector<Vec2>& outline, const Vec2& p_O);
+
+/// Whether no two edges of the polygon cross or touch beyond their shared vertex.
+bool is_simple(const std::vector<Vec2>& outline);
+
+/// Longer side of the object in the pad plane: L of the plan cost [m].
+double longer_side(const std::vector<Vec2>& outline);
+
+/// Centre of mass in O: as given, or of the homogeneous shape [m].
+Vec2 centre_of_mass(const Object& object);
+
+/// Moment of inertia about z through the centre of mass: as given, or homogeneous
+/// [kg m^2].
+double moment_of_inertia(const Object& object);
+
+}  // namespace prehensile

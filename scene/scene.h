@@ -1,0 +1,164 @@
+/// The scene: what is held, what holds it, what it is pushed against, and the regrasp
+/// that is wanted. Plain values in SI units; `check` lists everything that is wrong with
+/// them. A scene is the only input of `prepare` (mechanics/model.h).
+///
+/// Source: the inputs named in section III-A of the paper; frames in scene/frames.h.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "scene/frames.h"
+
+namespace prehensile {
+
+enum class Axis { kX, kY, kZ };
+
+/// Box, centred on the origin of O; size [m] along x, y (pad plane) and z (between jaws).
+struct BoxShape {
+  Vec3 size = Vec3::Zero();
+};
+
+/// Cylinder centred on the origin of O. `axis` kZ: held at its flat ends. `axis` kX or kY:
+/// held on its curved side, each pad touches it along a line, and it can roll.
+struct CylinderShape {
+  double radius = 0.0;  ///< [m]
+  double length = 0.0;  ///< [m]
+  Axis axis = Axis::kZ;
+};
+
+/// Straight prism along z over a simple polygon in the pad plane of O.
+struct PrismShape {
+  std::vector<Vec2> outline;  ///< [m], counter-clockwise, at least 3 vertices
+  double thickness = 0.0;     ///< [m] along z, between the jaws
+};
+
+using Shape = std::variant<BoxShape, CylinderShape, PrismShape>;
+
+struct Object {
+  Shape shape;
+  double mass = 0.0;           ///< [kg], > 0
+  std::optional<Vec2> p_OCom;  ///< [m] centre of mass in O; unset: centroid of the shape
+  std::optional<double> inertia;  ///< [kg m^2] about z through the centre of mass; unset:
+                                  ///< that of the homogeneous shape
+};
+
+/// Pad shapes, centred on the finger axis (the origin of H), both pads alike.
+struct DiscPad {
+  double radius = 0.0;  ///< [m]
+};
+struct RectanglePad {
+  Vec2 size = Vec2::Zero();  ///< [m] along x and y of H
+};
+struct LinePad {
+  double length = 0.0;  ///< [m]
+  double angle = 0.0;   ///< [rad] of the line in H
+};
+struct PointPad {};
+
+using Pad = std::variant<DiscPad, RectanglePad, LinePad, PointPad>;
+
+/// How the two jaws are driven along the closing direction (MECHANICS 2.4).
+enum class JawMode {
+  kCoupled,    ///< one actuator, symmetric jaws; their forces sum to twice the grip force
+  kFixedJaw1,  ///< jaw 1 stands still, jaw 2 presses with the grip force
+  kFixedJaw2,  ///< jaw 2 stands still, jaw 1 presses with the grip force
+};
+
+/// Fixed transform from H to the robot's tool frame T.
+struct ToolTransform {
+  Vec3 p_HT = Vec3::Zero();                          ///< [m]
+  std::array<double, 4> q_HT = {0.0, 0.0, 0.0, 1.0};  ///< unit quaternion x, y, z, w
+};
+
+struct Gripper {
+  std::string name = "gripper";
+  Pad pad;
+  std::array<double, 2> friction = {0.0, 0.0};  ///< of jaw 1 and jaw 2, >= 0
+  double grip_force = 0.0;                      ///< [N] of each finger, >= 0
+  JawMode jaw_mode = JawMode::kCoupled;
+  ToolTransform tool;
+};
+
+/// A point of the environment.
+struct PointFeature {};
+
+/// A straight edge or the section of a wall. Unset length: longer than any face.
+struct LineFeature {
+  std::optional<double> length;  ///< [m]
+};
+
+using PusherFeature = std::variant<PointFeature, LineFeature>;
+
+/// A feature that stands still in the world W. W is aligned with O at the start.
+struct Pusher {
+  std::string name;
+  PusherFeature feature;
+  double friction = 0.0;            ///< >= 0
+  Vec2 p_WP = Vec2::Zero();         ///< [m] centre of the feature in W
+  double normal_angle = 0.0;        ///< [rad] in W of the normal, into the object
+  std::vector<std::string> faces;   ///< faces of the object it may touch; empty: the one
+                                    ///< opposite to its normal at the start
+};
+
+/// What becomes of the part of a pad that leaves the face.
+enum class Overhang {
+  kClip,    ///< only the part on the face presses
+  kIgnore,  ///< the whole pad presses as long as its centre is on the face
+};
+
+/// Pose in the hand, with the roll angle of a round object about its own axis.
+struct Grasp {
+  PlanarPose X_HO;
+  double psi = 0.0;  ///< [rad] about the object's long axis; 0 unless the object can roll
+
+  friend bool operator==(const Grasp&, const Grasp&) = default;
+};
+
+enum class GoalTest {
+  kPerCoordinate,  ///< each fixed coordinate within its own tolerance
+  kWeightedSum,    ///< distance + characteristic_length * |angle| within the tolerance
+};
+
+/// The wanted pose; an unset coordinate is free.
+struct Goal {
+  std::optional<double> x, y;  ///< [m] of O in H
+  std::optional<double> theta;  ///< [rad] of O in H; any number of whole turns counts
+  std::optional<double> psi;    ///< [rad] roll angle; only for an object that can roll
+  double position_tolerance = 1e-3;  ///< [m], > 0
+  double angle_tolerance = 0.02;     ///< [rad], > 0
+  double characteristic_length = 0.01;  ///< [m], > 0: 1 rad counts like this distance
+  GoalTest test = GoalTest::kPerCoordinate;
+};
+
+struct Scene {
+  std::string name = "scene";
+  std::string origin;  ///< where the numbers come from, for people
+  Object object;
+  Gripper gripper;
+  std::vector<Pusher> pushers;
+  Vec2 g_W = {0.0, -9.81};  ///< [m/s^2] gravity in W, in the pad plane
+  Overhang overhang = Overhang::kClip;
+  Grasp start;
+  std::optional<Goal> goal;
+};
+
+/// One thing that is wrong: which field (dotted path as in a scene file), what its value
+/// is and what was expected.
+struct Fault {
+  std::string field;
+  std::string what;
+};
+
+/// Everything wrong with the values of a scene; empty when it can be prepared. Checks
+/// ranges, finiteness, simplicity of the outline, names of faces, and that start and goal
+/// have the pads on the object.
+std::vector<Fault> check(const Scene& scene);
+
+/// True for a cylinder that the pads hold on its curved side.
+bool can_roll(const Object& object);
+
+}  // namespace prehensile

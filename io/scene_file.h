@@ -1,5 +1,5 @@
-/// Scene files: YAML, version 1, SI units unless the key says otherwise. Every fault names
-/// file, line, field, value and what was expected.
+/// Scene files: YAML, version 1, SI units unless the key says otherwise. Every fault
+/// names file, line, field, value and what was expected.
 #pragma once
 
 #include <filesystem>
@@ -11,8 +11,8 @@
 
 namespace prehensile {
 
-/// What is wrong with an input file or an option; what() holds every message, one per line:
-/// `file:line: field: value: expected ...`.
+/// What is wrong with an input file or an option; what() holds every message, one per
+/// line: `file:line: field: value: expected ...`.
 class BadInput : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -20,8 +20,9 @@ class BadInput : public std::runtime_error {
 
 struct SceneFile {
   Scene scene;
-  std::string text;    ///< as read, overrides not included
-  std::string digest;  ///< of the scene with its overrides (FNV-1a 64, hex): ties plans to it
+  std::string text;  ///< as read, overrides not included
+  std::string
+      digest;  ///< of the scene with its overrides (FNV-1a 64, hex): ties plans to it
 };
 
 /// Reads a scene. `overrides` are `path=value` pairs of the command line's --set, e.g.

@@ -27,12 +27,14 @@ struct PushContact {
   Vec2 a, b;       ///< [m] ends of the face, b after a along t
   double mu = 0.0;
   bool is_point = false;
-  double half_length = 0.0;  ///< [m] of the pusher; infinity: longer than the face; 0: point
-  Vec2 g_O = Vec2::Zero();   ///< [m/s^2] gravity in O during contact
-  double theta_WO = 0.0;     ///< [rad] attitude of the object in W during contact
+  double half_length =
+      0.0;  ///< [m] of the pusher; infinity: longer than the face; 0: point
+  Vec2 g_O = Vec2::Zero();  ///< [m/s^2] gravity in O during contact
+  double theta_WO = 0.0;    ///< [rad] attitude of the object in W during contact
 
-  /// Ends of the part of the face that carries load when the centre of the pusher stands at
-  /// `place` [m along t from the centre of the face]. One point for a point pusher (a == b).
+  /// Ends of the part of the face that carries load when the centre of the pusher stands
+  /// at `place` [m along t from the centre of the face]. One point for a point pusher (a
+  /// == b).
   struct Segment {
     Vec2 a, b;
   };
@@ -88,22 +90,24 @@ class BadScene : public std::runtime_error {
 /// Compiles a scene. Throws BadScene with all faults.
 Model prepare(const Scene& scene, const PrepareOptions& options = {});
 
-/// The grasp at a pose, with gravity g_O [m/s^2] in O; no heap. `count` is 0 where the pads
-/// have lost the face.
-PlanarGrasp grasp_at(const Model& model, const PlanarPose& X_HO, const Vec2& g_O) noexcept;
+/// The grasp at a pose, with gravity g_O [m/s^2] in O; no heap. `count` is 0 where the
+/// pads have lost the face, or have no friction or no grip force.
+PlanarGrasp grasp_at(const Model& model, const PlanarPose& X_HO,
+                     const Vec2& g_O) noexcept;
 
 /// Fills the inertia of a grasp, so that rates become accelerations from rest.
 void add_inertia(const Model& model, const PlanarPose& X_HO, PlanarGrasp& grasp) noexcept;
 
-/// The contact as a drive at a pose: `place` as in PushContact::segment, V_HP the twist of
-/// the pusher in H.
+/// The contact as a drive at a pose: `place` as in PushContact::segment, V_HP the twist
+/// of the pusher in H.
 PlanarDrive drive_at(const PushContact& contact, double place, const PlanarPose& X_HO,
                      const PlanarTwist& V_HP) noexcept;
 
 /// The pose is valid: the centre of each pad lies on the face, and the pads touch.
 bool pads_on_object(const Model& model, const PlanarPose& X_HO) noexcept;
 
-/// Index of the contact of this pusher (by name) with this face (empty: its first), or -1.
+/// Index of the contact of this pusher (by name) with this face (empty: its first), or
+/// -1.
 int find_contact(const Model& model, const std::string& pusher, const std::string& face);
 
 }  // namespace prehensile

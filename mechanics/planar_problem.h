@@ -37,10 +37,10 @@ struct PlanarGrasp {
 /// One pusher: the points that touch (a line pusher by its two ends, paper section IV-D
 /// and MECHANICS 2.3) and its prescribed rigid motion.
 struct PlanarDrive {
-  int count = 1;                     ///< 1 point, 2 line
+  int count = 1;                                         ///< 1 point, 2 line
   std::array<Vec2, 2> p_HC{Vec2::Zero(), Vec2::Zero()};  ///< [m]
-  Vec2 n_H = {1.0, 0.0};             ///< unit normal, into the object
-  double mu = 0.0;                   ///< friction of the pusher, >= 0
+  Vec2 n_H = {1.0, 0.0};                                 ///< unit normal, into the object
+  double mu = 0.0;                                       ///< friction of the pusher, >= 0
   PlanarTwist V_HP = PlanarTwist::Zero();  ///< twist (or acceleration) of the pusher
 
   Vec2 t_H() const { return perp(n_H); }

@@ -16,11 +16,11 @@ namespace prehensile {
 
 /// Box of uncertainty that a push must survive (PLANNER 4.6). Zero: nominal.
 struct Margin {
-  double friction = 0.10;       ///< relative, of the pusher
-  double force = 0.10;          ///< relative, of m g / F
-  double torque_radius = 0.10;  ///< relative, of c
-  double place = 1e-3;          ///< [m] of the pusher along the face
-  double centre_of_mass = 1e-3; ///< [m]
+  double friction = 0.10;        ///< relative, of the pusher
+  double force = 0.10;           ///< relative, of m g / F
+  double torque_radius = 0.10;   ///< relative, of c
+  double place = 1e-3;           ///< [m] of the pusher along the face
+  double centre_of_mass = 1e-3;  ///< [m]
 
   Margin scaled(double factor) const {
     return {friction * factor, force * factor, torque_radius * factor, place * factor,
@@ -35,7 +35,7 @@ struct StickContact {
   double mu = 0.0;
   Vec2 gamma = Vec2::Zero();  ///< m g_O / F, dimensionless
   Vec2 p_OCom = Vec2::Zero();
-  double c = 0.0;             ///< [m]
+  double c = 0.0;  ///< [m]
 };
 StickContact stick_contact(const Model& model, const PushContact& contact, double place);
 
@@ -66,17 +66,19 @@ KappaSet robust_kappas(const StickContact& contact, const Vec2& p_OF, const Vec2
 /// What the pusher must exert on the object for a wanted friction wrench, tested against
 /// the contact: the smallest slack of cone and face ends.
 struct StickTest {
-  double push_force = kNan;         ///< [N]
-  double normal_force = kNan;       ///< [N]
-  double tangential_force = kNan;   ///< [N] along t
-  double centre_of_pressure = kNan; ///< [m] along t from the centre of the face
-  double slack = kNan;  ///< least of cone slack / F and moment slack about the ends / (F c);
-                        ///< >= 0: sticks
+  double push_force = kNan;          ///< [N]
+  double normal_force = kNan;        ///< [N]
+  double tangential_force = kNan;    ///< [N] along t
+  double centre_of_pressure = kNan;  ///< [m] along t from the centre of the face
+  double slack =
+      kNan;  ///< least of cone slack / F and moment slack about the ends / (F c);
+             ///< >= 0: sticks
 };
 
-/// One instant with the friction wrench of the ellipsoid; v_e = |v|, omega any common scale.
-StickTest stick_test(const StickContact& contact, double F, const Vec2& p_OF, const Vec2& e,
-                     double v, double omega) noexcept;
+/// One instant with the friction wrench of the ellipsoid; v_e = |v|, omega any common
+/// scale.
+StickTest stick_test(const StickContact& contact, double F, const Vec2& p_OF,
+                     const Vec2& e, double v, double omega) noexcept;
 
 /// One instant with the real pad region at this pose, worst over the box. Also holds for
 /// pads that are not isotropic. The object moves with (v e, omega) relative to the hand.

@@ -17,7 +17,7 @@ namespace prehensile {
 inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 struct NonlinearProgram {
-  std::vector<double> start;         ///< x at the start; its size is the number of variables
+  std::vector<double> start;  ///< x at the start; its size is the number of variables
   std::vector<double> lower, upper;  ///< bounds of x; empty or one per variable
 
   /// f(x); fills `gradient` if it is not empty.
@@ -31,8 +31,8 @@ struct NonlinearProgram {
   std::vector<int> jacobian_rows, jacobian_columns;
   std::function<void(std::span<const double> x, std::span<double> values)> jacobian;
 
-  /// Lower triangle of the Hessian of f_scale f + sum multipliers g; optional: without it a
-  /// quasi-Newton approximation is used.
+  /// Lower triangle of the Hessian of f_scale f + sum multipliers g; optional: without it
+  /// a quasi-Newton approximation is used.
   std::vector<int> hessian_rows, hessian_columns;
   std::function<void(std::span<const double> x, double f_scale,
                      std::span<const double> multipliers, std::span<double> values)>
@@ -40,10 +40,10 @@ struct NonlinearProgram {
 };
 
 enum class NlpStatus {
-  kConverged,   ///< the library says so; x must still be judged by its residual
-  kLimit,       ///< evaluation or iteration limit; x is the last iterate
-  kFailed,      ///< x is the last iterate; message says why
-  kNotBuilt,    ///< the library was switched off at build time
+  kConverged,  ///< the library says so; x must still be judged by its residual
+  kLimit,      ///< evaluation or iteration limit; x is the last iterate
+  kFailed,     ///< x is the last iterate; message says why
+  kNotBuilt,   ///< the library was switched off at build time
 };
 
 struct NlpResult {
@@ -70,8 +70,8 @@ enum class LocalMethod {
 NlpResult minimise_nlopt(const NonlinearProgram& program, LocalMethod method,
                          const NlpOptions& options = {}, double initial_step = 0.0);
 
-/// Ipopt with MUMPS. Not re-entrant in the library: calls are serialised by a global lock;
-/// run several in several processes.
+/// Ipopt with MUMPS. Not re-entrant in the library: calls are serialised by a global
+/// lock; run several in several processes.
 NlpResult minimise_ipopt(const NonlinearProgram& program, const NlpOptions& options = {});
 
 bool nlopt_is_built();

@@ -1,9 +1,9 @@
 /// A regrasp plan and everything that is known about it.
 ///
-/// Cost J = S + T / L (PLANNER 3): S pusher placements (runs of pushes by the same pusher at
-/// the same place), T travel = path length of (p_OF, c theta, r psi) [m], L longer side of
-/// the object. The published cost, 1 per push by a new pusher and 0.1 by the same, is
-/// reported beside it.
+/// Cost J = S + T / L (PLANNER 3): S pusher placements (runs of pushes by the same pusher
+/// at the same place), T travel = path length of (p_OF, c theta, r psi) [m], L longer
+/// side of the object. The published cost, 1 per push by a new pusher and 0.1 by the
+/// same, is reported beside it.
 #pragma once
 
 #include <cstdint>
@@ -21,21 +21,21 @@ namespace prehensile {
 struct PlannedPush {
   Push push;
   Grasp start, end;
-  double push_force = kNan;    ///< [N] greatest along the push
-  double slack = kNan;         ///< least robust slack along the push (StickTest), margin box
-                               ///< of the plan included; >= 0
-  double certificate = kNan;   ///< worst entry along the push
+  double push_force = kNan;  ///< [N] greatest along the push
+  double slack = kNan;  ///< least robust slack along the push (StickTest), margin box
+                        ///< of the plan included; >= 0
+  double certificate = kNan;     ///< worst entry along the push
   double error_estimate = kNan;  ///< [m]
 };
 
 enum class PlanStatus {
   kNotRun,
-  kReachedGoal,   ///< pushes valid; every push passed the exact check with the margin
-  kNothingToDo,   ///< the start is a goal
-  kInfeasible,    ///< refused; `proof` can be verified by `verify`
-  kBudgetSpent,   ///< undecided: no plan within the work budget or time limit
-  kStopped,       ///< undecided: interrupted
-  kUnsupported,   ///< the scene asks for what this planner does not do; see message
+  kReachedGoal,  ///< pushes valid; every push passed the exact check with the margin
+  kNothingToDo,  ///< the start is a goal
+  kInfeasible,   ///< refused; `proof` can be verified by `verify`
+  kBudgetSpent,  ///< undecided: no plan within the work budget or time limit
+  kStopped,      ///< undecided: interrupted
+  kUnsupported,  ///< the scene asks for what this planner does not do; see message
 };
 std::string_view name(PlanStatus status);
 
@@ -43,13 +43,13 @@ std::string_view name(PlanStatus status);
 struct Proof {
   enum class Kind {
     kNone,
-    kGoalOffObject,     ///< the pads would not be on the object at any pose of the goal set
-    kStartFalls,        ///< gravity is not held at the start; twist = evidence
-    kGoalFalls,         ///< gravity is not held at the goal whatever pusher is near
-    kNoPusher,          ///< no pusher can touch any face, and the goal is not the start
-    kNoRoll,            ///< the goal fixes psi and nothing can roll the object
-    kHalfSpace,         ///< every possible push moves p_OF into a half-plane that excludes
-                        ///< the goal; direction = its normal
+    kGoalOffObject,  ///< the pads would not be on the object at any pose of the goal set
+    kStartFalls,     ///< gravity is not held at the start; twist = evidence
+    kGoalFalls,      ///< gravity is not held at the goal whatever pusher is near
+    kNoPusher,       ///< no pusher can touch any face, and the goal is not the start
+    kNoRoll,         ///< the goal fixes psi and nothing can roll the object
+    kHalfSpace,      ///< every possible push moves p_OF into a half-plane that excludes
+                     ///< the goal; direction = its normal
   };
   Kind kind = Kind::kNone;
   PlanarTwist twist = PlanarTwist::Zero();
@@ -65,7 +65,7 @@ struct Plan {
 
   Grasp start, goal;  ///< goal: the member of the goal set that was reached
   std::vector<PlannedPush> pushes;
-  Margin margin;      ///< box of uncertainty that every push survives
+  Margin margin;  ///< box of uncertainty that every push survives
 
   double cost = kNan;         ///< J
   double placements = 0;      ///< S
@@ -73,7 +73,7 @@ struct Plan {
   double lower_bound = kNan;  ///< valid bound on J over all sticking plans
   double published_cost = kNan;
 
-  std::string planner;        ///< which planner found it
+  std::string planner;  ///< which planner found it
   std::uint64_t seed = 0;
   std::int64_t stick_tests = 0;   ///< work of the own planner
   std::int64_t propagations = 0;  ///< work of OMPL's planners

@@ -14,11 +14,12 @@ namespace prehensile {
 struct PlanOptions {
   std::string planner = "push";  ///< see planner_names(); "push" is our own
   std::uint64_t seed = 1;
-  std::int64_t budget = 20'000'000;  ///< stick tests (own planner) or propagations (stock)
+  std::int64_t budget =
+      20'000'000;           ///< stick tests (own planner) or propagations (stock)
   double time_limit = 0.0;  ///< [s]; 0: none. The only way in which the clock decides
   Margin margin;            ///< plan for this box; doubled once if the exact check fails
   bool polish = true;       ///< shorten the plan found with NLopt, where built
-  TransitionOptions transition;  ///< of the exact check
+  TransitionOptions transition;             ///< of the exact check
   const std::atomic<bool>* stop = nullptr;  ///< set by a signal handler: give up cleanly
 };
 
@@ -31,12 +32,12 @@ Plan plan_regrasp(const Model& model, const PlanOptions& options = {});
 /// Whether a grasp satisfies the goal.
 bool reaches(const Goal& goal, const Grasp& grasp);
 
-/// Distance to the goal: 0 inside; per-coordinate test: worst ratio to its tolerance minus
-/// 1; weighted sum: excess [m].
+/// Distance to the goal: 0 inside; per-coordinate test: worst ratio to its tolerance
+/// minus 1; weighted sum: excess [m].
 double goal_excess(const Goal& goal, const Grasp& grasp);
 
-/// Verifies a proof of infeasibility from the model alone; shares no code with the search.
-/// On false `why` says what does not hold.
+/// Verifies a proof of infeasibility from the model alone; shares no code with the
+/// search. On false `why` says what does not hold.
 bool verify(const Model& model, const Proof& proof, std::string* why = nullptr);
 
 }  // namespace prehensile

@@ -21,7 +21,7 @@ struct ReplayedPush {
   double force_error = kNan;     ///< relative, greatest push force against the plan's
   double slack = kNan;           ///< robust slack found along the push
   bool agrees = false;
-  std::string why;               ///< empty if it agrees
+  std::string why;  ///< empty if it agrees
 };
 
 struct Replay {

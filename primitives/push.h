@@ -1,9 +1,10 @@
 /// A push: the choice of a contact and of the pusher's motion. The pusher stands still in
 /// the world and the hand moves; seen from the hand, the pusher follows the path below.
 ///
-/// The pusher frame P coincides with O when the push starts. Along a linear push the finger
-/// axis runs straight in P while the hand turns at a constant rate; an object that sticks
-/// to the pusher rides in P. Slide and pivot are the named cases of paper section VII.
+/// The pusher frame P coincides with O when the push starts. Along a linear push the
+/// finger axis runs straight in P while the hand turns at a constant rate; an object that
+/// sticks to the pusher rides in P. Slide and pivot are the named cases of paper section
+/// VII.
 #pragma once
 
 #include <variant>
@@ -14,11 +15,11 @@ namespace prehensile {
 
 /// The general push: the pusher translates and turns.
 struct LinearPush {
-  int contact = 0;          ///< index in Model::contacts
-  double place = 0.0;       ///< [m] of the pusher's centre along t from the face's centre
-  Vec2 e = {1.0, 0.0};      ///< unit, in P: direction in which the pusher moves in the hand
-  double travel = 0.0;      ///< [m] >= 0, length of the finger axis' path in P
-  double turn = 0.0;        ///< [rad] of the pusher in the hand over the whole push
+  int contact = 0;      ///< index in Model::contacts
+  double place = 0.0;   ///< [m] of the pusher's centre along t from the face's centre
+  Vec2 e = {1.0, 0.0};  ///< unit, in P: direction in which the pusher moves in the hand
+  double travel = 0.0;  ///< [m] >= 0, length of the finger axis' path in P
+  double turn = 0.0;    ///< [rad] of the pusher in the hand over the whole push
 };
 
 /// Straight slide (paper VII-A): no turn; guarded against rotation of the object.
@@ -27,7 +28,8 @@ struct Slide {
   double place = 0.0;
   Vec2 e = {1.0, 0.0};
   double travel = 0.0;
-  double guard_angle = 0.05;  ///< [rad] the object may turn before the guard stops the push
+  double guard_angle =
+      0.05;  ///< [rad] the object may turn before the guard stops the push
 };
 
 /// Pivot about the finger axis (paper VII-B); guarded against drift of the finger axis.
@@ -38,11 +40,11 @@ struct Pivot {
   double guard_distance = 1e-3;  ///< [m] the finger axis may drift in the object
 };
 
-/// Roll (paper VII-C): the pusher, a support under a round object, moves along the closing
-/// direction; the object turns about its own axis by travel / radius.
+/// Roll (paper VII-C): the pusher, a support under a round object, moves along the
+/// closing direction; the object turns about its own axis by travel / radius.
 struct Roll {
   int contact = 0;
-  double travel = 0.0;           ///< [m] signed, along +z of H
+  double travel = 0.0;  ///< [m] signed, along +z of H
 };
 
 using Push = std::variant<LinearPush, Slide, Pivot, Roll>;
@@ -60,8 +62,8 @@ PlanarPose pusher_pose(const LinearPush& push, const PlanarPose& X_HO_start,
 PlanarTwist pusher_twist(const LinearPush& push, const PlanarPose& X_HO_start,
                          double s) noexcept;
 
-/// "slide", "pivot", "roll" or "push": the name of what a motion is. `travel_tolerance` [m]
-/// and `turn_tolerance` [rad] say when a part counts as absent.
+/// "slide", "pivot", "roll" or "push": the name of what a motion is. `travel_tolerance`
+/// [m] and `turn_tolerance` [rad] say when a part counts as absent.
 const char* kind_name(double travel, double turn, double roll,
                       double travel_tolerance = 1e-6, double turn_tolerance = 1e-6);
 

@@ -2,9 +2,9 @@
 /// along the way, the events, an error estimate and the reason for stopping.
 ///
 /// Each instant is solved by the exact planar mechanics (roll: the cross-section) and
-/// certified. While the pusher sticks, the object follows the pusher's exact rigid motion;
-/// while it slips, the twist is integrated with adaptive steps (Dormand-Prince 5(4)) and
-/// the stick-slip events are located.
+/// certified. While the pusher sticks, the object follows the pusher's exact rigid
+/// motion; while it slips, the twist is integrated with adaptive steps (Dormand-Prince
+/// 5(4)) and the stick-slip events are located.
 #pragma once
 
 #include <array>
@@ -33,7 +33,14 @@ enum class TransitionStatus {
 std::string_view name(TransitionStatus status);
 
 enum class EventKind {
-  kStick, kSlip, kCorner, kPusherOffFace, kPadOffFace, kContactLost, kGravityLost, kGuard
+  kStick,
+  kSlip,
+  kCorner,
+  kPusherOffFace,
+  kPadOffFace,
+  kContactLost,
+  kGravityLost,
+  kGuard
 };
 std::string_view name(EventKind kind);
 
@@ -43,8 +50,8 @@ struct Event {
 };
 
 struct TransitionOptions {
-  double tolerance = 1e-6;      ///< [m] accepted error of the end pose (angles weigh c)
-  double max_step = 0.05;       ///< share of the push; also the spacing of checks on stick
+  double tolerance = 1e-6;  ///< [m] accepted error of the end pose (angles weigh c)
+  double max_step = 0.05;   ///< share of the push; also the spacing of checks on stick
   int max_steps = 2000;
   double certificate_tolerance = 1e-6;
 };
@@ -58,29 +65,30 @@ struct Sample {
   double tangential_force = kNan;  ///< [N]
   double slip_rate = kNan;         ///< object relative to pusher, per unit of s [m]
   InstantStatus status = InstantStatus::kNotRun;
-  double certificate = kNan;       ///< worst entry
+  double certificate = kNan;  ///< worst entry
 };
 
 struct Transition {
   static constexpr int kMaxEvents = 16;
 
   TransitionStatus status = TransitionStatus::kNotRun;
-  std::string_view reason;  ///< static text for people; empty if completed
-  Grasp end;                ///< pose where the push ended
-  double done = 0.0;        ///< share of the push, 0..1
-  double error_estimate = kNan;    ///< [m] of the end pose
-  double slipped = 0.0;            ///< [m] path of the contact along the pusher
-  double max_push_force = kNan;    ///< [N]
-  double min_push_force = kNan;    ///< [N]
+  std::string_view reason;       ///< static text for people; empty if completed
+  Grasp end;                     ///< pose where the push ended
+  double done = 0.0;             ///< share of the push, 0..1
+  double error_estimate = kNan;  ///< [m] of the end pose
+  double slipped = 0.0;          ///< [m] path of the contact along the pusher
+  double max_push_force = kNan;  ///< [N]
+  double min_push_force = kNan;  ///< [N]
   double worst_certificate = kNan;
-  int instants = 0;                ///< mechanics calls
+  int instants = 0;  ///< mechanics calls
   int event_count = 0;
   std::array<Event, kMaxEvents> events;
 
   bool completed() const { return status == TransitionStatus::kCompleted; }
 };
 
-/// Applies a push at a grasp. No heap unless `trace` is given, which receives the samples.
+/// Applies a push at a grasp. No heap unless `trace` is given, which receives the
+/// samples.
 Transition apply(const Model& model, const Grasp& start, const Push& push,
                  const TransitionOptions& options = {},
                  std::vector<Sample>* trace = nullptr) noexcept;

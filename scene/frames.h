@@ -38,7 +38,9 @@ struct PlanarPose {
 inline Vec2 perp(const Vec2& v) { return {-v.y(), v.x()}; }
 
 /// Moment about +z of a force f that acts at r.
-inline double cross(const Vec2& r, const Vec2& f) { return r.x() * f.y() - r.y() * f.x(); }
+inline double cross(const Vec2& r, const Vec2& f) {
+  return r.x() * f.y() - r.y() * f.x();
+}
 
 inline Vec2 rotated(double angle, const Vec2& v) {
   const double c = std::cos(angle);
@@ -65,7 +67,9 @@ inline PlanarPose inverse(const PlanarPose& X_AB) {
 }
 
 /// Place of the finger axis in the object, p_OF. With theta it is the planner's state.
-inline Vec2 finger_in_object(const PlanarPose& X_HO) { return translation(inverse(X_HO)); }
+inline Vec2 finger_in_object(const PlanarPose& X_HO) {
+  return translation(inverse(X_HO));
+}
 
 /// X_HO from the place of the finger axis in the object and the angle of O in H.
 inline PlanarPose pose_from_finger(const Vec2& p_OF, double theta) {

@@ -1,5 +1,5 @@
-/// The object seen along the closing direction: its outline in the pad plane of O, and the
-/// straight faces of that outline that a pusher can touch.
+/// The object seen along the closing direction: its outline in the pad plane of O, and
+/// the straight faces of that outline that a pusher can touch.
 #pragma once
 
 #include <string>
@@ -12,10 +12,12 @@ namespace prehensile {
 /// A straight face. n is the unit normal into the object, t = perp(n); the ends are
 /// ordered so that b lies after a along t. All in O.
 struct Face {
-  std::string name;  ///< "-x", "+x", "-y", "+y" for box and bar, "edge0", ... for a prism
+  std::string name;  ///< by its outward side "-x", "+x", "-y", "+y" where that is unique,
+                     ///< else "edge0", ...: from vertex 0 to vertex 1 of the outline, ...
   Vec2 a, b;         ///< [m]
   Vec2 n, t;
-  bool on_hull = true;  ///< false: in a notch, a wall longer than the notch cannot reach it
+  bool on_hull =
+      true;  ///< false: in a notch, a wall longer than the notch cannot reach it
 
   double length() const { return (b - a).norm(); }
   Vec2 centre() const { return 0.5 * (a + b); }
@@ -34,6 +36,15 @@ std::vector<Vec2> outline_of(const Shape& shape);
 
 /// Flush faces; empty for a cylinder held at its flat ends, whose rim is round.
 std::vector<Face> faces_of(const Shape& shape);
+
+/// "edge3": the name by which every face can be called, besides Face::name.
+std::string edge_name(int edge);
+
+/// Index of the face with this name, or -1.
+int find_face(const std::vector<Face>& faces, const std::string& name);
+
+/// The face on the hull whose normal is closest to n; -1 if there is none.
+int face_towards(const std::vector<Face>& faces, const Vec2& n);
 
 OutlineProperties properties_of(const std::vector<Vec2>& outline);
 

@@ -22,8 +22,8 @@ struct BoxShape {
   Vec3 size = Vec3::Zero();
 };
 
-/// Cylinder centred on the origin of O. `axis` kZ: held at its flat ends. `axis` kX or kY:
-/// held on its curved side, each pad touches it along a line, and it can roll.
+/// Cylinder centred on the origin of O. `axis` kZ: held at its flat ends. `axis` kX or
+/// kY: held on its curved side, each pad touches it along a line, and it can roll.
 struct CylinderShape {
   double radius = 0.0;  ///< [m]
   double length = 0.0;  ///< [m]
@@ -70,7 +70,7 @@ enum class JawMode {
 
 /// Fixed transform from H to the robot's tool frame T.
 struct ToolTransform {
-  Vec3 p_HT = Vec3::Zero();                          ///< [m]
+  Vec3 p_HT = Vec3::Zero();                           ///< [m]
   std::array<double, 4> q_HT = {0.0, 0.0, 0.0, 1.0};  ///< unit quaternion x, y, z, w
 };
 
@@ -97,11 +97,11 @@ using PusherFeature = std::variant<PointFeature, LineFeature>;
 struct Pusher {
   std::string name;
   PusherFeature feature;
-  double friction = 0.0;            ///< >= 0
-  Vec2 p_WP = Vec2::Zero();         ///< [m] centre of the feature in W
-  double normal_angle = 0.0;        ///< [rad] in W of the normal, into the object
-  std::vector<std::string> faces;   ///< faces of the object it may touch; empty: the one
-                                    ///< opposite to its normal at the start
+  double friction = 0.0;           ///< >= 0
+  Vec2 p_WP = Vec2::Zero();        ///< [m] centre of the feature in W
+  double normal_angle = 0.0;       ///< [rad] in W of the normal, into the object
+  std::vector<std::string> faces;  ///< faces of the object it may touch; empty: the one
+                                   ///< opposite to its normal at the start
 };
 
 /// What becomes of the part of a pad that leaves the face.
@@ -125,11 +125,11 @@ enum class GoalTest {
 
 /// The wanted pose; an unset coordinate is free.
 struct Goal {
-  std::optional<double> x, y;  ///< [m] of O in H
+  std::optional<double> x, y;   ///< [m] of O in H
   std::optional<double> theta;  ///< [rad] of O in H; any number of whole turns counts
   std::optional<double> psi;    ///< [rad] roll angle; only for an object that can roll
-  double position_tolerance = 1e-3;  ///< [m], > 0
-  double angle_tolerance = 0.02;     ///< [rad], > 0
+  double position_tolerance = 1e-3;     ///< [m], > 0
+  double angle_tolerance = 0.02;        ///< [rad], > 0
   double characteristic_length = 0.01;  ///< [m], > 0: 1 rad counts like this distance
   GoalTest test = GoalTest::kPerCoordinate;
 };
@@ -154,8 +154,8 @@ struct Fault {
 };
 
 /// Everything wrong with the values of a scene; empty when it can be prepared. Checks
-/// ranges, finiteness, simplicity of the outline, names of faces, and that start and goal
-/// have the pads on the object.
+/// ranges, finiteness, simplicity of the outline, names of faces, and that the pads are
+/// on the object at the start. A goal off the object is no fault: the planner refuses it.
 std::vector<Fault> check(const Scene& scene);
 
 /// True for a cylinder that the pads hold on its curved side.

@@ -1,5 +1,5 @@
-/// Counts heap allocations in a scope. Interposes malloc, because Eigen does not go through
-/// operator new. Inactive under sanitizers, which own malloc.
+/// Counts heap allocations in a scope. Interposes malloc, because Eigen does not go
+/// through operator new. Inactive under sanitizers, which own malloc.
 #pragma once
 
 namespace prehensile::testing {

@@ -1,0 +1,180 @@
+#include "mechanics/model.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace prehensile {
+namespace {
+
+std::string joined(const std::vector<Fault>& faults) {
+  std::string text;
+  for (const Fault& fault : faults) {
+    text += (text.empty() ? "" : "\n") + fault.field + ": " + fault.what;
+  }
+  return text;
+}
+
+/// Faces that this pusher may touch: as listed, or the one opposite to its normal while O
+/// is aligned with W.
+std::vector<int> touchable_faces(const Pusher& pusher, const std::vector<Face>& faces) {
+  std::vector<int> touchable;
+  for (const std::string& wanted : pusher.faces)
+    touchable.push_back(find_face(faces, wanted));
+  if (pusher.faces.empty()) {
+    const int face = face_towards(faces, rotated(pusher.normal_angle, {1.0, 0.0}));
+    if (face >= 0) touchable.push_back(face);
+  }
+  return touchable;
+}
+
+PushContact make_contact(const Scene& scene, int pusher_index, const Face& face,
+                         int face_index) {
+  const Pusher& pusher = scene.pushers[pusher_index];
+  PushContact contact;
+  contact.pusher = pusher_index;
+  contact.face = face_index;
+  contact.n = face.n;
+  contact.t = face.t;
+  contact.a = face.a;
+  contact.b = face.b;
+  contact.mu = pusher.friction;
+  const auto* line = std::get_if<LineFeature>(&pusher.feature);
+  contact.is_point = line == nullptr;
+  contact.half_length = !line          ? 0.0
+                        : line->length ? 0.5 * *line->length
+                                       : std::numeric_limits<double>::infinity();
+  contact.theta_WO = wrapped(pusher.normal_angle - std::atan2(face.n.y(), face.n.x()));
+  contact.g_O = rotated(-contact.theta_WO, scene.g_W);
+  return contact;
+}
+
+CrossSectionModel make_cross_section(const Scene& scene) {
+  CrossSectionModel section;
+  section.radius = std::get<CylinderShape>(scene.object.shape).radius;
+  section.mass = scene.object.mass;
+  section.grip_force = scene.gripper.grip_force;
+  section.friction = scene.gripper.friction;
+  section.jaw_mode = scene.gripper.jaw_mode;
+  return section;
+}
+
+void explain(const Scene& scene, Model& model) {
+  const auto say = [&model](std::string what, std::string why) {
+    model.decisions.push_back({std::move(what), std::move(why)});
+  };
+  say("motion along the closing direction and out-of-plane turns",
+      "every pusher moves in the pad plane, where the pads leave x, y and theta free");
+  if (scene.g_W.isZero()) say("gravity wrench", "gravity is zero");
+  if (!model.cross_section) say("roll angle and cross-section", "the object cannot roll");
+  if (model.contacts.empty()) {
+    say("planar pushes", scene.pushers.empty() ? "the scene has no pusher"
+                                               : "no pusher lies flush with a face");
+  }
+  if (model.region.is_fixed_in_hand()) {
+    say("clipping of the pads by the face", "overhang: ignore");
+  }
+  if (scene.gripper.friction[0] == scene.gripper.friction[1]) {
+    say("separate fingers", "equal friction: points that coincide are merged");
+  }
+  if (!scene.goal) say("goal", "the scene states none; it serves queries only");
+  for (const PushContact& contact : model.contacts) {
+    if (contact.mu > 0.0) continue;
+    say("friction of pusher " + scene.pushers[contact.pusher].name, "it is zero");
+  }
+}
+
+}  // namespace
+
+BadScene::BadScene(std::vector<Fault> faults)
+    : std::runtime_error(joined(faults)), faults_(std::move(faults)) {}
+
+PushContact::Segment PushContact::segment(double place) const {
+  const Vec2 centre = 0.5 * (a + b);
+  if (is_point) {
+    const Vec2 p = centre + place * t;
+    return {p, p};
+  }
+  const double half_face = 0.5 * (b - a).norm();
+  const double low = std::max(-half_face, place - half_length);
+  const double high = std::min(half_face, place + half_length);
+  return {centre + low * t, centre + high * t};
+}
+
+Model prepare(const Scene& scene, const PrepareOptions& options) {
+  std::vector<Fault> faults = check(scene);
+  if (!faults.empty()) throw BadScene(std::move(faults));
+
+  Model model{
+      .scene = scene, .options = options, .region = {scene, options.points_per_pad}};
+  model.outline = outline_of(scene.object.shape);
+  model.faces = faces_of(scene.object.shape);
+  for (std::size_t i = 0; i < scene.pushers.size(); ++i) {
+    for (const int face : touchable_faces(scene.pushers[i], model.faces)) {
+      model.contacts.push_back(
+          make_contact(scene, static_cast<int>(i), model.faces[face], face));
+    }
+  }
+  model.p_OCom = centre_of_mass(scene.object);
+  model.mass = scene.object.mass;
+  model.inertia = moment_of_inertia(scene.object);
+  model.F =
+      (scene.gripper.friction[0] + scene.gripper.friction[1]) * scene.gripper.grip_force;
+  model.c = model.region.torque_radius();
+  model.L = longer_side(model.outline);
+  if (can_roll(scene.object)) model.cross_section = make_cross_section(scene);
+  explain(scene, model);
+  return model;
+}
+
+PlanarGrasp grasp_at(const Model& model, const PlanarPose& X_HO,
+                     const Vec2& g_O) noexcept {
+  const ContactPoints points = model.region.at(X_HO);
+  PlanarGrasp grasp;
+  grasp.count = model.F > 0.0 ? points.count : 0;
+  for (int j = 0; j < grasp.count; ++j) {
+    grasp.x[j] = points.x[j];
+    grasp.y[j] = points.y[j];
+    grasp.bound[j] = model.F * points.weight[j];
+  }
+  const Vec2 weight_H = model.mass * rotated(X_HO.theta, g_O);
+  grasp.w_g = wrench_of(transform(X_HO, model.p_OCom), weight_H);
+  return grasp;
+}
+
+void add_inertia(const Model& model, const PlanarPose& X_HO,
+                 PlanarGrasp& grasp) noexcept {
+  const Vec2 p_HCom = transform(X_HO, model.p_OCom);
+  const double m = model.mass;
+  grasp.inertia << m, 0.0, -m * p_HCom.y(),  //
+      0.0, m, m * p_HCom.x(),                //
+      -m * p_HCom.y(), m * p_HCom.x(), model.inertia + m * p_HCom.squaredNorm();
+}
+
+PlanarDrive drive_at(const PushContact& contact, double place, const PlanarPose& X_HO,
+                     const PlanarTwist& V_HP) noexcept {
+  const PushContact::Segment segment = contact.segment(place);
+  PlanarDrive drive;
+  drive.count = contact.is_point ? 1 : 2;
+  drive.p_HC = {transform(X_HO, segment.a), transform(X_HO, segment.b)};
+  drive.n_H = rotated(X_HO.theta, contact.n);
+  drive.mu = contact.mu;
+  drive.V_HP = V_HP;
+  return drive;
+}
+
+bool pads_on_object(const Model& model, const PlanarPose& X_HO) noexcept {
+  return contains(model.outline, finger_in_object(X_HO)) &&
+         model.region.at(X_HO).count > 0;
+}
+
+int find_contact(const Model& model, const std::string& pusher, const std::string& face) {
+  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
+    const PushContact& contact = model.contacts[i];
+    const bool same_pusher = model.scene.pushers[contact.pusher].name == pusher;
+    const bool same_face = face.empty() || find_face(model.faces, face) == contact.face;
+    if (same_pusher && same_face) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+}  // namespace prehensile

@@ -1,0 +1,218 @@
+#include "scene/outline.h"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+namespace prehensile {
+namespace {
+
+constexpr int kRoundEdges = 64;
+constexpr double kParallel = 1e-9;
+
+std::vector<Vec2> rectangle(double size_x, double size_y) {
+  const double x = 0.5 * size_x;
+  const double y = 0.5 * size_y;
+  return {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
+}
+
+/// Regular polygon with the area of the circle.
+std::vector<Vec2> round_outline(double radius) {
+  const double step = 2.0 * std::numbers::pi / kRoundEdges;
+  const double r = radius * std::sqrt(step / std::sin(step));
+  std::vector<Vec2> outline;
+  for (int i = 0; i < kRoundEdges; ++i) {
+    outline.emplace_back(r * std::cos(i * step), r * std::sin(i * step));
+  }
+  return outline;
+}
+
+struct OutlineOf {
+  std::vector<Vec2> operator()(const BoxShape& box) const {
+    return rectangle(box.size.x(), box.size.y());
+  }
+  std::vector<Vec2> operator()(const CylinderShape& cylinder) const {
+    switch (cylinder.axis) {
+      case Axis::kX:
+        return rectangle(cylinder.length, 2.0 * cylinder.radius);
+      case Axis::kY:
+        return rectangle(2.0 * cylinder.radius, cylinder.length);
+      case Axis::kZ:
+        break;
+    }
+    return round_outline(cylinder.radius);
+  }
+  std::vector<Vec2> operator()(const PrismShape& prism) const { return prism.outline; }
+};
+
+double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
+  const Vec2 d = b - a;
+  const double s = std::clamp((p - a).dot(d) / d.squaredNorm(), 0.0, 1.0);
+  return (p - a - s * d).norm();
+}
+
+/// Name of the side whose outward normal is an axis of O, or empty.
+std::string side_name(const Vec2& n) {
+  if (std::abs(n.x() - 1.0) < kParallel) return "-x";
+  if (std::abs(n.x() + 1.0) < kParallel) return "+x";
+  if (std::abs(n.y() - 1.0) < kParallel) return "-y";
+  if (std::abs(n.y() + 1.0) < kParallel) return "+y";
+  return {};
+}
+
+bool segments_touch(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  const auto side = [](const Vec2& p, const Vec2& q, const Vec2& r) {
+    return cross(q - p, r - p);
+  };
+  const auto between = [](const Vec2& p, const Vec2& q, const Vec2& r) {
+    return (r - p).dot(r - q) <= 0.0;
+  };
+  const double abc = side(a, b, c);
+  const double abd = side(a, b, d);
+  const double cda = side(c, d, a);
+  const double cdb = side(c, d, b);
+  if (abc == 0.0 && between(a, b, c)) return true;
+  if (abd == 0.0 && between(a, b, d)) return true;
+  if (cda == 0.0 && between(c, d, a)) return true;
+  if (cdb == 0.0 && between(c, d, b)) return true;
+  return (abc > 0.0) != (abd > 0.0) && (cda > 0.0) != (cdb > 0.0);
+}
+
+}  // namespace
+
+std::vector<Vec2> outline_of(const Shape& shape) {
+  return std::visit(OutlineOf{}, shape);
+}
+
+std::vector<Face> faces_of(const Shape& shape) {
+  const auto* cylinder = std::get_if<CylinderShape>(&shape);
+  if (cylinder && cylinder->axis == Axis::kZ) return {};
+  const std::vector<Vec2> outline = outline_of(shape);
+  const double tolerance = kParallel * longer_side(outline);
+  std::vector<Face> faces;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    Face face;
+    face.b = outline[i];
+    face.a = outline[(i + 1) % outline.size()];
+    face.t = (face.b - face.a).normalized();
+    face.n = -perp(face.t);
+    face.on_hull = std::all_of(outline.begin(), outline.end(), [&](const Vec2& v) {
+      return face.n.dot(v - face.a) >= -tolerance;
+    });
+    if (face.on_hull) face.name = side_name(face.n);
+    faces.push_back(face);
+  }
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const auto same = [&](const Face& f) { return f.name == faces[i].name; };
+    const bool unique = std::count_if(faces.begin(), faces.end(), same) == 1;
+    if (faces[i].name.empty() || !unique) faces[i].name = edge_name(static_cast<int>(i));
+  }
+  return faces;
+}
+
+std::string edge_name(int edge) { return "edge" + std::to_string(edge); }
+
+int find_face(const std::vector<Face>& faces, const std::string& name) {
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const int index = static_cast<int>(i);
+    if (faces[i].name == name || edge_name(index) == name) return index;
+  }
+  return -1;
+}
+
+int face_towards(const std::vector<Face>& faces, const Vec2& n) {
+  int best = -1;
+  double best_dot = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const double dot = faces[i].n.dot(n);
+    if (faces[i].on_hull && dot > best_dot + kParallel) {
+      best = static_cast<int>(i);
+      best_dot = dot;
+    }
+  }
+  return best;
+}
+
+OutlineProperties properties_of(const std::vector<Vec2>& outline) {
+  OutlineProperties p;
+  double polar_about_origin = 0.0;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2& a = outline[i];
+    const Vec2& b = outline[(i + 1) % outline.size()];
+    const double w = cross(a, b);
+    p.area += 0.5 * w;
+    p.centroid += w / 6.0 * (a + b);
+    polar_about_origin += w / 12.0 * (a.squaredNorm() + a.dot(b) + b.squaredNorm());
+  }
+  p.centroid /= p.area;
+  p.polar = polar_about_origin - p.area * p.centroid.squaredNorm();
+  return p;
+}
+
+double depth_inside(const std::vector<Vec2>& outline, const Vec2& p_O) {
+  double distance = std::numeric_limits<double>::infinity();
+  bool inside = false;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2& a = outline[i];
+    const Vec2& b = outline[(i + 1) % outline.size()];
+    distance = std::min(distance, distance_to_segment(p_O, a, b));
+    const bool straddles = (a.y() > p_O.y()) != (b.y() > p_O.y());
+    if (straddles) {
+      const double x = a.x() + (p_O.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+      if (p_O.x() < x) inside = !inside;
+    }
+  }
+  return inside ? distance : -distance;
+}
+
+bool contains(const std::vector<Vec2>& outline, const Vec2& p_O) {
+  return depth_inside(outline, p_O) >= -1e-12;
+}
+
+bool is_simple(const std::vector<Vec2>& outline) {
+  const std::size_t n = outline.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (outline[i] == outline[(i + 1) % n]) return false;
+    const Vec2 in = outline[(i + 1) % n] - outline[i];
+    const Vec2 out = outline[(i + 2) % n] - outline[(i + 1) % n];
+    if (cross(in, out) == 0.0 && in.dot(out) < 0.0) return false;
+    for (std::size_t j = i + 2; j < n; ++j) {
+      if (i == 0 && j == n - 1) continue;
+      if (segments_touch(outline[i], outline[i + 1], outline[j], outline[(j + 1) % n])) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+double longer_side(const std::vector<Vec2>& outline) {
+  Vec2 low = outline.front();
+  Vec2 high = outline.front();
+  for (const Vec2& v : outline) {
+    low = low.cwiseMin(v);
+    high = high.cwiseMax(v);
+  }
+  return (high - low).maxCoeff();
+}
+
+Vec2 centre_of_mass(const Object& object) {
+  if (object.p_OCom) return *object.p_OCom;
+  return properties_of(outline_of(object.shape)).centroid;
+}
+
+double moment_of_inertia(const Object& object) {
+  if (object.inertia) return *object.inertia;
+  const OutlineProperties outline = properties_of(outline_of(object.shape));
+  const Vec2 shift = centre_of_mass(object) - outline.centroid;
+  double gyration_squared = outline.polar / outline.area;
+  const auto* cylinder = std::get_if<CylinderShape>(&object.shape);
+  if (cylinder) {
+    const double r2 = cylinder->radius * cylinder->radius;
+    const double l2 = cylinder->length * cylinder->length;
+    gyration_squared = cylinder->axis == Axis::kZ ? 0.5 * r2 : 0.25 * r2 + l2 / 12.0;
+  }
+  return object.mass * (gyration_squared + shift.squaredNorm());
+}
+
+}  // namespace prehensile

@@ -1,0 +1,321 @@
+#include "scene/pad_quadrature.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include <Eigen/Eigenvalues>
+
+#include "scene/outline.h"
+
+namespace prehensile {
+namespace {
+
+struct Rule {
+  Eigen::VectorXd nodes;
+  Eigen::VectorXd weights;  // sum 1
+};
+
+/// Gauss rule from the recurrence of its orthogonal polynomials (Golub and Welsch 1969).
+Rule gauss(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& off_diagonal) {
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+  solver.computeFromTridiagonal(diagonal, off_diagonal);
+  return {solver.eigenvalues(), solver.eigenvectors().row(0).array().square().matrix()};
+}
+
+/// On [-1, 1].
+Rule gauss_legendre(int n) {
+  Eigen::VectorXd off(n - 1);
+  for (int k = 1; k < n; ++k) off[k - 1] = k / std::sqrt(4.0 * k * k - 1.0);
+  return gauss(Eigen::VectorXd::Zero(n), off);
+}
+
+/// On [0, 1] with weight r: the radii of rings that integrate a polynomial over a disc.
+Rule gauss_radial(int n) {
+  Eigen::VectorXd diagonal(n);
+  Eigen::VectorXd off(n - 1);
+  for (int k = 0; k < n; ++k) diagonal[k] = 1.0 / ((2.0 * k + 1.0) * (2.0 * k + 3.0));
+  for (int k = 1; k < n; ++k) off[k - 1] = std::sqrt(k * (k + 1.0)) / (2.0 * k + 1.0);
+  Rule rule = gauss(diagonal, off);
+  rule.nodes = 0.5 * (rule.nodes.array() + 1.0).matrix();
+  return rule;
+}
+
+/// Two Gauss panels side by side on [-1, 1]: the kink of |r| at the axis falls between
+/// them.
+Rule two_panels(int n) {
+  if (n == 1) return {Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1)};
+  const Rule half = gauss_legendre(n / 2);
+  Rule rule{Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  for (int i = 0; i < n / 2; ++i) {
+    rule.nodes[i] = 0.5 * (half.nodes[i] - 1.0);
+    rule.nodes[n / 2 + i] = 0.5 * (half.nodes[i] + 1.0);
+    rule.weights[i] = rule.weights[n / 2 + i] = 0.5 * half.weights[i];
+  }
+  return rule;
+}
+
+void add(ContactPoints& points, const Vec2& p, double weight) {
+  points.x[points.count] = p.x();
+  points.y[points.count] = p.y();
+  points.weight[points.count] = weight;
+  ++points.count;
+}
+
+ContactPoints disc_points(double radius, int points) {
+  ContactPoints result;
+  result.coverage = 1.0;
+  const int rings = points >= 64 ? 4 : points >= 16 ? 2 : 1;
+  const int spokes = points / rings;
+  if (points == 1) {
+    add(result, Vec2::Zero(), 1.0);
+    return result;
+  }
+  const Rule rule = gauss_radial(rings);
+  const double step = 2.0 * std::numbers::pi / spokes;
+  for (int i = 0; i < rings; ++i) {
+    for (int j = 0; j < spokes; ++j) {
+      const double angle = (j + 0.5 * (i % 2)) * step;
+      add(result, radius * rule.nodes[i] * Vec2(std::cos(angle), std::sin(angle)),
+          rule.weights[i] / spokes);
+    }
+  }
+  return result;
+}
+
+ContactPoints rectangle_points(const Vec2& size, int points) {
+  ContactPoints result;
+  result.coverage = 1.0;
+  int long_side = 1;
+  while (long_side * long_side < points) long_side *= 2;
+  const int short_side = points / long_side;
+  const bool x_is_longer = size.x() >= size.y();
+  const Rule along_x = two_panels(x_is_longer ? long_side : short_side);
+  const Rule along_y = two_panels(x_is_longer ? short_side : long_side);
+  for (int i = 0; i < along_x.nodes.size(); ++i) {
+    for (int j = 0; j < along_y.nodes.size(); ++j) {
+      add(result, 0.5 * Vec2(size.x() * along_x.nodes[i], size.y() * along_y.nodes[j]),
+          along_x.weights[i] * along_y.weights[j]);
+    }
+  }
+  return result;
+}
+
+ContactPoints line_points(const LinePad& pad, int points) {
+  ContactPoints result;
+  result.coverage = 1.0;
+  const Vec2 d(std::cos(pad.angle), std::sin(pad.angle));
+  for (int i = 0; i < points; ++i) {
+    add(result, pad.length * ((i + 0.5) / points - 0.5) * d, 1.0 / points);
+  }
+  return result;
+}
+
+void finish(PadCell& cell) {
+  if (cell.count == 2) {
+    cell.measure = (cell.vertices[1] - cell.vertices[0]).norm();
+    cell.centroid = 0.5 * (cell.vertices[0] + cell.vertices[1]);
+  } else {
+    Vec2 moment = Vec2::Zero();
+    for (int i = 1; i + 1 < cell.count; ++i) {
+      const Vec2& o = cell.vertices[0];
+      const double area = 0.5 * cross(cell.vertices[i] - o, cell.vertices[i + 1] - o);
+      cell.measure += area;
+      moment += area / 3.0 * (o + cell.vertices[i] + cell.vertices[i + 1]);
+    }
+    cell.centroid = moment / cell.measure;
+  }
+  for (int i = 0; i < cell.count; ++i) {
+    cell.reach = std::max(cell.reach, (cell.vertices[i] - cell.centroid).norm());
+  }
+}
+
+PadCell quadrilateral(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  PadCell cell;
+  cell.count = 4;
+  cell.vertices[0] = a;
+  cell.vertices[1] = b;
+  cell.vertices[2] = c;
+  cell.vertices[3] = d;
+  finish(cell);
+  return cell;
+}
+
+/// Rings of equal area, cut by spokes; the radii make the polygon as large as the disc.
+std::vector<PadCell> disc_cells(double radius, int per_side) {
+  const int rings = per_side / 2;
+  const int spokes = 2 * per_side;
+  const double step = 2.0 * std::numbers::pi / spokes;
+  const double rim = radius * std::sqrt(step / std::sin(step));
+  std::vector<PadCell> cells;
+  for (int i = 0; i < rings; ++i) {
+    const double inner = rim * std::sqrt(static_cast<double>(i) / rings);
+    const double outer = rim * std::sqrt((i + 1.0) / rings);
+    for (int j = 0; j < spokes; ++j) {
+      const Vec2 one(std::cos(j * step), std::sin(j * step));
+      const Vec2 two(std::cos((j + 1) * step), std::sin((j + 1) * step));
+      cells.push_back(quadrilateral(inner * one, outer * one, outer * two, inner * two));
+    }
+  }
+  return cells;
+}
+
+std::vector<PadCell> rectangle_cells(const Vec2& size, int per_side) {
+  std::vector<PadCell> cells;
+  for (int i = 0; i < per_side; ++i) {
+    for (int j = 0; j < per_side; ++j) {
+      const auto corner = [&](int a, int b) {
+        return Vec2(size.x() * (static_cast<double>(a) / per_side - 0.5),
+                    size.y() * (static_cast<double>(b) / per_side - 0.5));
+      };
+      cells.push_back(quadrilateral(corner(i, j), corner(i + 1, j), corner(i + 1, j + 1),
+                                    corner(i, j + 1)));
+    }
+  }
+  return cells;
+}
+
+std::vector<PadCell> line_cells(const LinePad& pad, int per_side) {
+  const int segments = 4 * per_side;
+  const Vec2 d(std::cos(pad.angle), std::sin(pad.angle));
+  std::vector<PadCell> cells;
+  for (int i = 0; i < segments; ++i) {
+    PadCell cell;
+    cell.count = 2;
+    cell.vertices[0] = pad.length * (static_cast<double>(i) / segments - 0.5) * d;
+    cell.vertices[1] = pad.length * ((i + 1.0) / segments - 0.5) * d;
+    finish(cell);
+    cells.push_back(cell);
+  }
+  return cells;
+}
+
+/// Cuts the polygon by the half-plane left of a -> b (Sutherland and Hodgman 1974).
+void clip(PadCell& polygon, const Vec2& a, const Vec2& b) {
+  PadCell result;
+  const Vec2 d = b - a;
+  for (int i = 0; i < polygon.count; ++i) {
+    const Vec2& p = polygon.vertices[i];
+    const Vec2& q = polygon.vertices[(i + 1) % polygon.count];
+    const double at_p = cross(d, p - a);
+    const double at_q = cross(d, q - a);
+    if (at_p >= 0.0) result.vertices[result.count++] = p;
+    const bool closes = polygon.count > 2 || i == 0;
+    if (closes && (at_p >= 0.0) != (at_q >= 0.0)) {
+      result.vertices[result.count++] = p + at_p / (at_p - at_q) * (q - p);
+    }
+  }
+  polygon = result;
+}
+
+}  // namespace
+
+ContactPoints pad_points(const Pad& pad, int points) {
+  if (const auto* disc = std::get_if<DiscPad>(&pad))
+    return disc_points(disc->radius, points);
+  if (const auto* rectangle = std::get_if<RectanglePad>(&pad)) {
+    return rectangle_points(rectangle->size, points);
+  }
+  if (const auto* line = std::get_if<LinePad>(&pad)) return line_points(*line, points);
+  ContactPoints point;
+  point.coverage = 1.0;
+  add(point, Vec2::Zero(), 1.0);
+  return point;
+}
+
+double pad_reach(const Pad& pad) {
+  if (const auto* disc = std::get_if<DiscPad>(&pad)) return disc->radius;
+  if (const auto* rectangle = std::get_if<RectanglePad>(&pad)) {
+    return 0.5 * rectangle->size.norm();
+  }
+  if (const auto* line = std::get_if<LinePad>(&pad)) return 0.5 * line->length;
+  return 0.0;
+}
+
+std::vector<PadCell> pad_cells(const Pad& pad, int per_side) {
+  std::vector<PadCell> cells;
+  if (const auto* disc = std::get_if<DiscPad>(&pad))
+    cells = disc_cells(disc->radius, per_side);
+  if (const auto* rectangle = std::get_if<RectanglePad>(&pad)) {
+    cells = rectangle_cells(rectangle->size, per_side);
+  }
+  if (const auto* line = std::get_if<LinePad>(&pad)) cells = line_cells(*line, per_side);
+  double area = 0.0;
+  double torque = 0.0;
+  for (const PadCell& cell : cells) {
+    area += cell.measure;
+    torque += cell.measure * cell.centroid.norm();
+  }
+  const ContactPoints fine = pad_points(pad, 64);
+  double wanted = 0.0;
+  for (int j = 0; j < fine.count; ++j) {
+    wanted += fine.weight[j] * std::hypot(fine.x[j], fine.y[j]);
+  }
+  for (PadCell& cell : cells) cell.centroid *= wanted * area / torque;
+  return cells;
+}
+
+std::vector<Triangle> triangulate(const std::vector<Vec2>& outline) {
+  std::vector<Vec2> rest = outline;
+  std::vector<Triangle> triangles;
+  const auto is_ear = [&rest](std::size_t i) {
+    const std::size_t n = rest.size();
+    const Vec2& a = rest[(i + n - 1) % n];
+    const Vec2& b = rest[i];
+    const Vec2& c = rest[(i + 1) % n];
+    if (cross(b - a, c - b) <= 0.0) return false;
+    return std::none_of(rest.begin(), rest.end(), [&](const Vec2& p) {
+      if (p == a || p == b || p == c) return false;
+      return cross(b - a, p - a) >= 0.0 && cross(c - b, p - b) >= 0.0 &&
+             cross(a - c, p - c) >= 0.0;
+    });
+  };
+  while (rest.size() > 2) {
+    std::size_t ear = 0;
+    while (ear < rest.size() && !is_ear(ear)) ++ear;
+    if (ear == rest.size()) {  // what remains is flat at some vertex: drop the flattest
+      const auto turn = [&rest](std::size_t i) {
+        const std::size_t n = rest.size();
+        return std::abs(
+            cross(rest[i] - rest[(i + n - 1) % n], rest[(i + 1) % n] - rest[i]));
+      };
+      ear = 0;
+      for (std::size_t i = 1; i < rest.size(); ++i) {
+        if (turn(i) < turn(ear)) ear = i;
+      }
+    } else {
+      const std::size_t n = rest.size();
+      triangles.push_back({{rest[(ear + n - 1) % n], rest[ear], rest[(ear + 1) % n]}});
+    }
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(ear));
+  }
+  return triangles;
+}
+
+PressedCell press(const PadCell& cell, const std::vector<Triangle>& face,
+                  const PlanarPose& X_OH) noexcept {
+  PadCell whole;
+  whole.count = cell.count;
+  for (int i = 0; i < cell.count; ++i)
+    whole.vertices[i] = transform(X_OH, cell.vertices[i]);
+  PadCell unscaled = whole;
+  finish(unscaled);
+  PressedCell pressed;
+  Vec2 moment = Vec2::Zero();
+  for (const Triangle& triangle : face) {
+    PadCell part = whole;
+    for (int i = 0; i < 3 && part.count > 0; ++i) {
+      clip(part, triangle.vertices[i], triangle.vertices[(i + 1) % 3]);
+    }
+    if (part.count < 2 || (cell.count > 2 && part.count < 3)) continue;
+    finish(part);
+    if (!(part.measure > 0.0)) continue;
+    pressed.measure += part.measure;
+    moment += part.measure * part.centroid;
+  }
+  if (pressed.measure <= 0.0) return pressed;
+  const Vec2 shift = moment / pressed.measure - unscaled.centroid;
+  pressed.centroid = cell.centroid + rotated(-X_OH.theta, shift);
+  return pressed;
+}
+
+}  // namespace prehensile

@@ -1,0 +1,260 @@
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <set>
+
+#include "scene/contact_region.h"
+#include "scene/outline.h"
+
+namespace prehensile {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kLongest = 10.0;   // [m]
+constexpr double kSmallest = 1e-6;  // [m]
+constexpr std::size_t kMostVertices = 200;
+constexpr std::size_t kMostPushers = 64;
+
+std::string text(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.10g", value);
+  return buffer;
+}
+
+/// Collects faults; a later group of checks runs only if the earlier ones passed.
+class Checker {
+ public:
+  void fault(const std::string& field, const std::string& what) {
+    faults_.push_back({field, what});
+  }
+  void in_range(const std::string& field, double value, double low, double high,
+                const char* unit) {
+    if (value >= low && value <= high) return;
+    std::string what = text(value) + ": expected a number from " + text(low);
+    what += high == kInfinity ? " up" : " to " + text(high);
+    fault(field, what + (*unit ? std::string(" ") + unit : std::string()));
+  }
+  void length(const std::string& field, double value) {
+    in_range(field, value, kSmallest, kLongest, "m");
+  }
+  void place(const std::string& field, const Vec2& p) {
+    in_range(field, p.x(), -kLongest, kLongest, "m");
+    in_range(field, p.y(), -kLongest, kLongest, "m");
+  }
+  void angle(const std::string& field, double value) {
+    in_range(field, value, -100.0, 100.0, "rad");
+  }
+  bool clean() const { return faults_.empty(); }
+  std::vector<Fault> take() { return std::move(faults_); }
+
+ private:
+  std::vector<Fault> faults_;
+};
+
+void check_outline(Checker& checker, const std::vector<Vec2>& outline) {
+  const std::string field = "object.prism.outline";
+  if (outline.size() < 3 || outline.size() > kMostVertices) {
+    checker.fault(field, std::to_string(outline.size()) + " vertices: expected 3 to " +
+                             std::to_string(kMostVertices));
+    return;
+  }
+  for (const Vec2& v : outline) checker.place(field, v);
+  if (!checker.clean()) return;
+  if (!is_simple(outline)) {
+    checker.fault(field,
+                  "edges cross, touch or have no length: expected a simple polygon");
+    return;
+  }
+  const double area = properties_of(outline).area;
+  if (!(area > kSmallest * kSmallest)) {
+    checker.fault(field,
+                  "area " + text(area) +
+                      " m^2: expected vertices in counter-clockwise order around a "
+                      "positive area");
+  }
+}
+
+void check_object(Checker& checker, const Object& object) {
+  if (const auto* box = std::get_if<BoxShape>(&object.shape)) {
+    for (int i = 0; i < 3; ++i) checker.length("object.box.size", box->size[i]);
+  } else if (const auto* cylinder = std::get_if<CylinderShape>(&object.shape)) {
+    checker.length("object.cylinder.radius", cylinder->radius);
+    checker.length("object.cylinder.length", cylinder->length);
+  } else if (const auto* prism = std::get_if<PrismShape>(&object.shape)) {
+    checker.length("object.prism.thickness", prism->thickness);
+    check_outline(checker, prism->outline);
+  }
+  checker.in_range("object.mass", object.mass, 1e-9, 1e4, "kg");
+  if (object.inertia) {
+    checker.in_range("object.inertia", *object.inertia, 0.0, 1e6, "kg m^2");
+  }
+  if (object.p_OCom) checker.place("object.centre_of_mass", *object.p_OCom);
+  if (object.p_OCom && checker.clean()) {
+    const std::vector<Vec2> outline = outline_of(object.shape);
+    double farthest = 0.0;
+    for (const Vec2& v : outline) farthest = std::max(farthest, v.norm());
+    if (object.p_OCom->norm() > farthest) {
+      checker.fault("object.centre_of_mass",
+                    "[" + text(object.p_OCom->x()) + ", " + text(object.p_OCom->y()) +
+                        "]: expected a point of the object, at most " + text(farthest) +
+                        " m from its origin");
+    }
+  }
+}
+
+void check_pad(Checker& checker, const Gripper& gripper, const Object& object) {
+  const std::string field = "gripper.pad";
+  if (const auto* disc = std::get_if<DiscPad>(&gripper.pad)) {
+    checker.length(field + ".disc.radius", disc->radius);
+  } else if (const auto* rectangle = std::get_if<RectanglePad>(&gripper.pad)) {
+    checker.length(field + ".rectangle.size", rectangle->size.x());
+    checker.length(field + ".rectangle.size", rectangle->size.y());
+  } else if (const auto* line = std::get_if<LinePad>(&gripper.pad)) {
+    checker.length(field + ".line.length", line->length);
+    checker.angle(field + ".line.angle_deg", line->angle);
+  }
+  const bool thin = std::holds_alternative<LinePad>(gripper.pad) ||
+                    std::holds_alternative<PointPad>(gripper.pad);
+  if (thin && can_roll(object)) {
+    checker.fault(
+        field,
+        "a line or point pad on the curved side of a cylinder: expected a disc or a "
+        "rectangle");
+  }
+}
+
+void check_gripper(Checker& checker, const Gripper& gripper, const Object& object) {
+  check_pad(checker, gripper, object);
+  for (const double mu : gripper.friction) {
+    checker.in_range("gripper.friction", mu, 0.0, 1e3, "");
+  }
+  checker.in_range("gripper.grip_force", gripper.grip_force, 0.0, 1e6, "N");
+  for (int i = 0; i < 3; ++i) {
+    checker.in_range("gripper.tool.position", gripper.tool.p_HT[i], -kLongest, kLongest,
+                     "m");
+  }
+  double norm = 0.0;
+  for (const double q : gripper.tool.q_HT) norm += q * q;
+  if (!(std::abs(norm - 1.0) < 1e-3)) {
+    checker.fault(
+        "gripper.tool.quaternion_xyzw",
+        "norm " + text(std::sqrt(norm)) + ": expected a unit quaternion x, y, z, w");
+  }
+}
+
+void check_faces(Checker& checker, const std::string& path, const Pusher& pusher,
+                 const std::vector<Face>& faces) {
+  const auto* line = std::get_if<LineFeature>(&pusher.feature);
+  for (const std::string& wanted : pusher.faces) {
+    const int face = find_face(faces, wanted);
+    if (face < 0) {
+      std::string known;
+      for (const Face& f : faces) known += (known.empty() ? "" : ", ") + f.name;
+      if (known.empty()) known = "none, because the rim of the object is round";
+      checker.fault(path + ".faces",
+                    wanted + ": expected a face of the object (" + known + ")");
+      continue;
+    }
+    const double room = faces[face].length();
+    if (line && !faces[face].on_hull && !(line->length && *line->length <= room)) {
+      checker.fault(path + ".faces", wanted + ": lies in a notch of " + text(room) +
+                                         " m: expected a point or a "
+                                         "line of at most that length");
+    }
+  }
+}
+
+void check_pushers(Checker& checker, const Scene& scene) {
+  if (scene.pushers.size() > kMostPushers) {
+    checker.fault("pushers", std::to_string(scene.pushers.size()) +
+                                 " pushers: expected at most " +
+                                 std::to_string(kMostPushers));
+    return;
+  }
+  const bool shape_is_sound = checker.clean();
+  const std::vector<Face> faces =
+      shape_is_sound ? faces_of(scene.object.shape) : std::vector<Face>{};
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < scene.pushers.size(); ++i) {
+    const Pusher& pusher = scene.pushers[i];
+    const std::string path = "pushers." + std::to_string(i);
+    if (pusher.name.empty()) checker.fault(path + ".name", "empty: expected a name");
+    if (!names.insert(pusher.name).second) {
+      checker.fault(path + ".name",
+                    pusher.name + ": expected a name used by one pusher only");
+    }
+    checker.in_range(path + ".friction", pusher.friction, 0.0, 1e3, "");
+    checker.place(path + ".position", pusher.p_WP);
+    checker.angle(path + ".normal_deg", pusher.normal_angle);
+    const auto* line = std::get_if<LineFeature>(&pusher.feature);
+    if (line && line->length) checker.length(path + ".line.length", *line->length);
+    if (shape_is_sound) check_faces(checker, path, pusher, faces);
+  }
+}
+
+void check_pose(Checker& checker, const std::string& path, const Grasp& grasp) {
+  checker.in_range(path + ".x", grasp.X_HO.x, -kLongest, kLongest, "m");
+  checker.in_range(path + ".y", grasp.X_HO.y, -kLongest, kLongest, "m");
+  checker.angle(path + ".theta_deg", grasp.X_HO.theta);
+  checker.angle(path + ".roll_deg", grasp.psi);
+}
+
+void check_goal(Checker& checker, const Goal& goal, bool rolls) {
+  if (!goal.x && !goal.y && !goal.theta && !goal.psi) {
+    checker.fault("goal",
+                  "no coordinate: expected at least one of x, y, theta_deg, roll_deg");
+  }
+  const Grasp pose{{goal.x.value_or(0.0), goal.y.value_or(0.0), goal.theta.value_or(0.0)},
+                   goal.psi.value_or(0.0)};
+  check_pose(checker, "goal", pose);
+  if (goal.psi && !rolls) {
+    checker.fault(
+        "goal.roll_deg",
+        "the object cannot roll: expected only for a cylinder held on its curved side");
+  }
+  checker.in_range("goal.tolerance.position", goal.position_tolerance, 1e-9, 1.0, "m");
+  checker.in_range("goal.tolerance.angle_deg", goal.angle_tolerance, 1e-9, 4.0, "rad");
+  checker.in_range("goal.characteristic_length", goal.characteristic_length, 1e-9,
+                   kLongest, "m");
+}
+
+void check_start_is_held(Checker& checker, const Scene& scene) {
+  const std::vector<Vec2> outline = outline_of(scene.object.shape);
+  const Vec2 p_OF = finger_in_object(scene.start.X_HO);
+  const bool on_face =
+      contains(outline, p_OF) && ContactRegion(scene, 16).at(scene.start.X_HO).count > 0;
+  if (!on_face) {
+    checker.fault("start", "the finger axis is at [" + text(p_OF.x()) + ", " +
+                               text(p_OF.y()) +
+                               "] in the object: expected the pads on the object");
+  }
+}
+
+}  // namespace
+
+bool can_roll(const Object& object) {
+  const auto* cylinder = std::get_if<CylinderShape>(&object.shape);
+  return cylinder && cylinder->axis != Axis::kZ;
+}
+
+std::vector<Fault> check(const Scene& scene) {
+  Checker checker;
+  const bool rolls = can_roll(scene.object);
+  check_object(checker, scene.object);
+  check_pushers(checker, scene);
+  check_gripper(checker, scene.gripper, scene.object);
+  checker.in_range("gravity", scene.g_W.norm(), 0.0, 1e3, "m/s^2");
+  check_pose(checker, "start", scene.start);
+  if (scene.start.psi != 0.0 && !rolls) {
+    checker.fault(
+        "start.roll_deg",
+        "the object cannot roll: expected only for a cylinder held on its curved side");
+  }
+  if (scene.goal) check_goal(checker, *scene.goal, rolls);
+  if (checker.clean()) check_start_is_held(checker, scene);
+  return checker.take();
+}
+
+}  // namespace prehensile

@@ -21,6 +21,7 @@ std::vector<Vec2> round_outline(double radius) {
   const double step = 2.0 * std::numbers::pi / kRoundEdges;
   const double r = radius * std::sqrt(step / std::sin(step));
   std::vector<Vec2> outline;
+  outline.reserve(kRoundEdges);
   for (int i = 0; i < kRoundEdges; ++i) {
     outline.emplace_back(r * std::cos(i * step), r * std::sin(i * step));
   }

@@ -1,0 +1,34 @@
+/// The commands of the `prehensile` program. Each adds itself to the command line and,
+/// when chosen, runs and returns an exit code.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace prehensile::apps {
+
+/// 0 done; 1 a well-posed question with a negative answer; 2 bad input; 3 internal fault.
+enum ExitCode { kDone = 0, kNegative = 1, kBadInput = 2, kInternalFault = 3 };
+
+using Command = std::function<int()>;
+
+/// Options that several commands share.
+struct SceneOptions {
+  std::string file;
+  std::vector<std::string> overrides;  ///< path=value
+  bool json = false;
+};
+void add_scene_options(CLI::App& command, SceneOptions& options);
+
+Command add_plan(CLI::App& app);
+Command add_check(CLI::App& app);
+Command add_query_instant(CLI::App& query);
+Command add_query_push(CLI::App& query);
+Command add_inspect(CLI::App& app);
+
+}  // namespace prehensile::apps

@@ -1,0 +1,213 @@
+#include "apps/instant_report.h"
+
+#include "apps/json_number.h"
+#include "apps/table.h"
+
+namespace prehensile::apps {
+namespace {
+
+const char* const kContactNames[] = {"jaw 1", "jaw 2", "support"};
+
+std::string pusher_table(const InstantReport& report) {
+  Table table({"pusher point", "x mm", "y mm", "normal N", "tangential N",
+               "gap rate mm/s", "slip mm/s", "mode"});
+  for (int i = 0; i < report.instant.pusher_count; ++i) {
+    const PusherPoint& point = report.instant.pusher[i];
+    const Vec2& p = report.drive.p_HC[i];
+    table.add({text("%d", i + 1), text("%.2f", to_mm(p.x())), text("%.2f", to_mm(p.y())),
+               text("%.4f", point.normal_force), text("%.4f", point.tangential_force),
+               text("%.4f", to_mm(point.normal_rate)),
+               text("%.4f", to_mm(point.slip_rate)), std::string(name(point.mode))});
+  }
+  return table.str();
+}
+
+std::string finger_table(const InstantReport& report) {
+  Table table(
+      {"finger point", "x mm", "y mm", "bound N", "force x N", "force y N", "mode"});
+  for (int j = 0; j < report.instant.finger_count; ++j) {
+    const FingerPoint& point = report.instant.finger[j];
+    table.add({text("%d", j + 1), text("%.2f", to_mm(report.grasp.x[j])),
+               text("%.2f", to_mm(report.grasp.y[j])),
+               text("%.4f", report.grasp.bound[j]), text("%.4f", point.force.x()),
+               text("%.4f", point.force.y()), std::string(name(point.mode))});
+  }
+  return table.str();
+}
+
+std::string certificate_text(const InstantReport& report) {
+  std::string out = text(
+      "certificate: worst %.1e (units of force, rate and length of the "
+      "problem; accepted up to 1e-06)\n",
+      report.certificate_worst);
+  for (int i = 0; i < Certificate::kCheckCount; ++i) {
+    const CertificateEntry& entry = report.certificate.entries[i];
+    if (!std::isfinite(entry.value)) continue;
+    out +=
+        text("  %-16s %.1e\n",
+             std::string(name(static_cast<Certificate::Check>(i))).c_str(), entry.value);
+  }
+  return out;
+}
+
+nlohmann::ordered_json points_json(const InstantReport& report) {
+  nlohmann::ordered_json points = nlohmann::ordered_json::array();
+  for (int i = 0; i < report.instant.pusher_count; ++i) {
+    const PusherPoint& point = report.instant.pusher[i];
+    points.push_back({{"on", "pusher"},
+                      {"position", numbers(report.drive.p_HC[i])},
+                      {"normal_force", number(point.normal_force)},
+                      {"tangential_force", number(point.tangential_force)},
+                      {"normal_rate", number(point.normal_rate)},
+                      {"slip_rate", number(point.slip_rate)},
+                      {"mode", std::string(name(point.mode))}});
+  }
+  for (int j = 0; j < report.instant.finger_count; ++j) {
+    const FingerPoint& point = report.instant.finger[j];
+    points.push_back({{"on", "fingers"},
+                      {"position", numbers(Vec2(report.grasp.x[j], report.grasp.y[j]))},
+                      {"bound", number(report.grasp.bound[j])},
+                      {"force", numbers(point.force)},
+                      {"mode", std::string(name(point.mode))}});
+  }
+  return points;
+}
+
+}  // namespace
+
+const char* meaning(InstantStatus status) {
+  switch (status) {
+    case InstantStatus::kNotRun:
+      return "this solver is not part of this build";
+    case InstantStatus::kMoves:
+      return "the grasp breaks and the object moves; motion and forces are unique";
+    case InstantStatus::kHolds:
+      return "the object stays in the grasp and the pusher slides along it";
+    case InstantStatus::kNonuniqueForces:
+      return "the motion is unique, the forces shown are one choice from an interval";
+    case InstantStatus::kAmbiguous:
+      return "more than one motion obeys every law (or the pusher has to carry the "
+             "object)";
+    case InstantStatus::kSeparated:
+      return "the pusher leaves the object, which stays in the grasp";
+    case InstantStatus::kDynamic:
+      return "no equilibrium: the object falls or is flung; the twist shown proves it";
+    case InstantStatus::kJammed:
+      return "no motion is possible: the object is wedged";
+    case InstantStatus::kOutOfIterations:
+      return "no answer: the solver ran out of iterations";
+    case InstantStatus::kBadInput:
+      return "the question is not well posed (no push rate, no friction, or not finite)";
+  }
+  return "";
+}
+
+std::string describe(const InstantReport& report) {
+  const PlanarInstant& now = report.instant;
+  std::string out = report.question + '\n';
+  out += std::string(name(now.status)) + ": " + meaning(now.status) + '\n';
+  if (usable(now.status)) {
+    out += text(
+        "push force %.6g N: (%.4f, %.4f) N on the object, moment %.4f N mm about the "
+        "finger axis\n",
+        now.push_force, now.w_push[0], now.w_push[1], 1e3 * now.w_push[2]);
+    out += text("object twist: %.4f, %.4f mm/s, %.4f deg/s\n", to_mm(now.V_HO[0]),
+                to_mm(now.V_HO[1]), to_deg(now.V_HO[2]));
+    if (now.status == InstantStatus::kNonuniqueForces) {
+      out += text("normal push force anywhere in [%.4f, %.4f] N\n", now.force_low,
+                  now.force_high);
+    }
+  }
+  if (now.evidence.allFinite()) {
+    out += text("evidence twist: %.4f, %.4f mm/s, %.4f deg/s\n", to_mm(now.evidence[0]),
+                to_mm(now.evidence[1]), to_deg(now.evidence[2]));
+  }
+  if (now.other.allFinite()) {
+    out += text("other motion: %.4f, %.4f mm/s, %.4f deg/s\n", to_mm(now.other[0]),
+                to_mm(now.other[1]), to_deg(now.other[2]));
+  }
+  if (usable(now.status)) {
+    out += pusher_table(report);
+    if (now.finger_count > 0) out += finger_table(report);
+  }
+  out += text("solver %s: %d iterations, residual %.1e\n", report.solver.c_str(),
+              now.iterations, now.residual);
+  return out + certificate_text(report);
+}
+
+nlohmann::ordered_json to_json(const InstantReport& report) {
+  const PlanarInstant& now = report.instant;
+  nlohmann::ordered_json certificate = {{"worst", number(report.certificate_worst)}};
+  for (int i = 0; i < Certificate::kCheckCount; ++i) {
+    const auto check = static_cast<Certificate::Check>(i);
+    certificate[std::string(name(check))] = number(report.certificate.entries[i].value);
+  }
+  return {{"question", report.question},
+          {"solver", report.solver},
+          {"status", std::string(name(now.status))},
+          {"meaning", meaning(now.status)},
+          {"push_force", number(now.push_force)},
+          {"push_wrench", numbers(now.w_push)},
+          {"object_twist", numbers(now.V_HO)},
+          {"evidence", numbers(now.evidence)},
+          {"other_twist", numbers(now.other)},
+          {"force_interval", {number(now.force_low), number(now.force_high)}},
+          {"iterations", now.iterations},
+          {"residual", number(now.residual)},
+          {"certificate", certificate},
+          {"points", points_json(report)}};
+}
+
+std::string describe(const RollReport& report) {
+  const CrossSectionInstant& now = report.instant;
+  std::string out = report.question + '\n';
+  out += std::string(name(now.status)) + ": " + meaning(now.status) + '\n';
+  if (usable(now.status)) {
+    out += text(
+        "roll rate %.4f deg/s, object %.4f mm/s along the closing direction, support "
+        "force %.4f N\n",
+        to_deg(now.roll_rate), to_mm(now.v_z), now.push_force);
+    out += text("normal force of the support in [%.6f, %.6f] N\n", now.sheet_force_low,
+                now.sheet_force_high);
+    Table table({"contact", "normal N", "tangential N", "mode"});
+    for (int i = 0; i < 3; ++i) {
+      table.add({kContactNames[i], text("%.4f", now.normal_force[i]),
+                 text("%.4f", now.tangential_force[i]), std::string(name(now.mode[i]))});
+    }
+    out += table.str();
+  }
+  if (std::isfinite(now.other_roll_rate)) {
+    out += text("other motion: roll rate %.4f deg/s\n", to_deg(now.other_roll_rate));
+  }
+  if (std::isfinite(report.threshold)) {
+    out += text("rolls from a support friction of %.4f on\n", report.threshold);
+  }
+  return out + text("%d distinct motions over all mode combinations; residual %.1e\n",
+                    now.motions_found, report.residual);
+}
+
+nlohmann::ordered_json to_json(const RollReport& report) {
+  const CrossSectionInstant& now = report.instant;
+  nlohmann::ordered_json contacts = nlohmann::ordered_json::array();
+  for (int i = 0; i < 3; ++i) {
+    contacts.push_back({{"on", kContactNames[i]},
+                        {"normal_force", number(now.normal_force[i])},
+                        {"tangential_force", number(now.tangential_force[i])},
+                        {"mode", std::string(name(now.mode[i]))}});
+  }
+  return {{"question", report.question},
+          {"status", std::string(name(now.status))},
+          {"meaning", meaning(now.status)},
+          {"push_force", number(now.push_force)},
+          {"roll_rate", number(now.roll_rate)},
+          {"v_z", number(now.v_z)},
+          {"other_roll_rate", number(now.other_roll_rate)},
+          {"support_force_interval",
+           {number(now.sheet_force_low), number(now.sheet_force_high)}},
+          {"threshold", number(report.threshold)},
+          {"motions_found", now.motions_found},
+          {"residual", number(report.residual)},
+          {"contacts", contacts}};
+}
+
+}  // namespace prehensile::apps

@@ -1,0 +1,42 @@
+/// Answers about one instant as text and as JSON.
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "mechanics/certificate.h"
+#include "mechanics/cross_section.h"
+#include "mechanics/instant.h"
+
+namespace prehensile::apps {
+
+/// What was asked, how it was solved, and what came out. `certificate_worst` is the
+/// largest entry, by the certificate or by the residual of the model that was asked.
+struct InstantReport {
+  std::string question;  ///< one line for people
+  std::string solver;
+  PlanarGrasp grasp;
+  PlanarDrive drive;
+  PlanarInstant instant;
+  Certificate certificate;  ///< entries are NaN for the closed form, which has no points
+  double certificate_worst = kNan;
+};
+
+std::string describe(const InstantReport& report);
+nlohmann::ordered_json to_json(const InstantReport& report);
+
+struct RollReport {
+  std::string question;
+  CrossSectionInstant instant;
+  double residual = kNan;
+  double threshold = kNan;  ///< least friction of the support for rolling (closed form)
+};
+
+std::string describe(const RollReport& report);
+nlohmann::ordered_json to_json(const RollReport& report);
+
+/// What a status means, in a sentence.
+const char* meaning(InstantStatus status);
+
+}  // namespace prehensile::apps

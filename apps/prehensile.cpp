@@ -1,0 +1,79 @@
+/// The command line: parses, dispatches, and turns every failure into one message and an
+/// exit code.
+#include <cstdio>
+#include <exception>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/commands.h"
+#include "io/scene_file.h"
+
+namespace prehensile::apps {
+
+void add_scene_options(CLI::App& command, SceneOptions& options) {
+  command.add_option("SCENE", options.file, "scene file (YAML)")->required();
+  command
+      .add_option("--set", options.overrides,
+                  "override a field of the scene: gripper.grip_force=30 (repeatable)")
+      ->allow_extra_args(false);
+  command.add_flag("--json", options.json,
+                   "print one JSON object on stdout, nothing else");
+}
+
+namespace {
+
+int run(int argc, char** argv) {
+  CLI::App app{
+      "Plans how a robot re-grips what it holds by pushing it against its surroundings"};
+  app.set_version_flag("--version", PREHENSILE_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "Example:\n  prehensile plan problems/published/square_01.yaml -o plan.json\n"
+      "Exit code: 0 done, 1 negative answer, 2 bad input, 3 internal fault.");
+  CLI::App& query = *app.add_subcommand("query", "ask the mechanics or a single push");
+  query.require_subcommand(1);
+
+  const Command plan = add_plan(app);
+  const Command check = add_check(app);
+  const Command instant = add_query_instant(query);
+  const Command push = add_query_push(query);
+  const Command inspect = add_inspect(app);
+  const std::vector<std::pair<const CLI::App*, Command>> commands = {
+      {app.get_subcommand("plan"), plan},
+      {app.get_subcommand("check"), check},
+      {query.get_subcommand("instant"), instant},
+      {query.get_subcommand("push"), push},
+      {app.get_subcommand("inspect"), inspect}};
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kDone : kBadInput;
+  }
+  for (const auto& [subcommand, command] : commands) {
+    if (subcommand->parsed()) return command();
+  }
+  return kInternalFault;
+}
+
+}  // namespace
+}  // namespace prehensile::apps
+
+int main(int argc, char** argv) {
+  using namespace prehensile::apps;
+  try {
+    const int code = run(argc, argv);
+    if (std::fflush(stdout) != 0) {
+      std::fprintf(stderr, "prehensile: cannot write the output\n");
+      return kInternalFault;
+    }
+    return code;
+  } catch (const prehensile::BadInput& bad) {
+    std::fprintf(stderr, "%s\n", bad.what());
+    return kBadInput;
+  } catch (const std::exception& fault) {
+    std::fprintf(stderr, "prehensile: internal fault: %s\n", fault.what());
+    return kInternalFault;
+  }
+}

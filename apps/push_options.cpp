@@ -1,0 +1,76 @@
+#include "apps/push_options.h"
+
+#include <numbers>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/plan_report.h"
+#include "apps/table.h"
+#include "io/scene_file.h"
+
+namespace prehensile::apps {
+namespace {
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+
+std::string contacts_of(const Model& model) {
+  std::string known;
+  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
+    known += (i == 0 ? "" : ", ") + contact_text(model, static_cast<int>(i));
+  }
+  return known.empty() ? "none" : known;
+}
+
+}  // namespace
+
+void add_push_options(CLI::App& command, PushOptions& options) {
+  command.add_option("--pusher", options.pusher,
+                     "name of the pusher; default: the first");
+  command.add_option("--face", options.face, "face it touches; default: its first");
+  command
+      .add_option("--place-mm", options.place_mm,
+                  "of the pusher's centre along the face, from the face's centre")
+      ->check(CLI::Range(-1e4, 1e4));
+  command
+      .add_option("--direction-deg", options.direction_deg,
+                  "of the push, from the face's normal, counter-clockwise")
+      ->check(CLI::Range(-360.0, 360.0));
+  command
+      .add_option(
+          "--at", options.at,
+          "pose of the object in the hand: x_mm,y_mm,theta_deg[,roll_deg]; default: the "
+          "scene's start")
+      ->delimiter(',')
+      ->expected(3, 4)
+      ->check(CLI::Range(-1e4, 1e4));
+}
+
+int chosen_contact(const Model& model, const PushOptions& options) {
+  std::string pusher = options.pusher;
+  if (pusher.empty() && !model.contacts.empty()) {
+    pusher = model.scene.pushers[model.contacts.front().pusher].name;
+  }
+  const int contact = find_contact(model, pusher, options.face);
+  if (contact >= 0) return contact;
+  throw BadInput("--pusher " + pusher + " --face " + options.face +
+                 ": no such contact: expected one of: " + contacts_of(model));
+}
+
+Grasp chosen_grasp(const Model& model, const PushOptions& options) {
+  if (options.at.empty()) return model.scene.start;
+  Grasp grasp{{1e-3 * options.at[0], 1e-3 * options.at[1], kRadPerDeg * options.at[2]},
+              0.0};
+  if (options.at.size() > 3) grasp.psi = kRadPerDeg * options.at[3];
+  if (!pads_on_object(model, grasp.X_HO)) {
+    throw BadInput("--at " +
+                   text("%g,%g,%g", options.at[0], options.at[1], options.at[2]) +
+                   ": expected a pose with the pads on the object");
+  }
+  return grasp;
+}
+
+Vec2 chosen_direction(const Model& model, int contact, const PushOptions& options) {
+  return rotated(kRadPerDeg * options.direction_deg, model.contacts[contact].n);
+}
+
+}  // namespace prehensile::apps

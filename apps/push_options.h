@@ -1,0 +1,28 @@
+/// Which contact, where, and from which pose: shared by the queries about one push.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/commands.h"
+#include "mechanics/model.h"
+
+namespace prehensile::apps {
+
+struct PushOptions {
+  std::string pusher;  ///< empty: the first of the scene
+  std::string face;    ///< empty: the first that it may touch
+  double place_mm = 0.0;
+  double direction_deg = 0.0;  ///< from the normal of the face, positive towards t
+  std::vector<double> at;      ///< x mm, y mm, theta deg[, roll deg]; empty: the start
+};
+void add_push_options(CLI::App& command, PushOptions& options);
+
+/// Index in Model::contacts; throws BadInput naming what exists.
+int chosen_contact(const Model& model, const PushOptions& options);
+Grasp chosen_grasp(const Model& model, const PushOptions& options);
+
+/// Unit direction in O.
+Vec2 chosen_direction(const Model& model, int contact, const PushOptions& options);
+
+}  // namespace prehensile::apps

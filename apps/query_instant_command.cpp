@@ -1,0 +1,158 @@
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/commands.h"
+#include "apps/instant_report.h"
+#include "apps/plan_report.h"
+#include "apps/push_options.h"
+#include "apps/table.h"
+#include "io/scene_file.h"
+#include "mechanics/planar_instant.h"
+#include "mechanics/reference.h"
+#include "primitives/roll.h"
+
+namespace prehensile::apps {
+namespace {
+
+struct Options {
+  SceneOptions scene;
+  PushOptions push;
+  double speed_mm_s = 10.0;
+  double turn_deg_s = 0.0;
+  double acceleration = 0.0;
+  std::string solver = "exact";
+  int generators = 8;
+  int points = 16;
+  bool roll = false;
+};
+
+template <typename Report>
+int print(const Report& report, bool json) {
+  if (json) {
+    std::printf("%s\n", to_json(report).dump(2).c_str());
+  } else {
+    std::fputs(describe(report).c_str(), stdout);
+  }
+  return usable(report.instant.status) ? kDone : kNegative;
+}
+
+int ask_roll(const Options& options, const Model& model, int contact) {
+  const Grasp grasp = chosen_grasp(model, options.push);
+  const RollSection section = roll_section(model, contact, grasp);
+  if (!section.possible) {
+    throw BadInput("--roll: " + contact_text(model, contact) + ": " +
+                   std::string(section.reason));
+  }
+  const CrossSectionDrive drive{.mu = model.contacts[contact].mu,
+                                .sheet_rate = 1e-3 * options.speed_mm_s,
+                                .weight = section.weight};
+  RollReport report;
+  report.question =
+      text("roll by %s, support moving at %.3g mm/s along the closing direction",
+           contact_text(model, contact).c_str(), options.speed_mm_s);
+  report.instant = solve_cross_section(*model.cross_section, drive);
+  report.residual = cross_section_residual(*model.cross_section, drive, report.instant);
+  report.threshold =
+      rolling_threshold(*model.cross_section, drive.sheet_rate, drive.weight);
+  return print(report, options.scene.json);
+}
+
+/// Twist of the pusher in H: the direction is given in O, the rate of turn about the
+/// finger axis.
+PlanarTwist pusher_rate(const Options& options, const Grasp& grasp, const Vec2& e_O) {
+  const double turn = std::numbers::pi / 180.0 * options.turn_deg_s;
+  const Vec2 v = 1e-3 * options.speed_mm_s * rotated(grasp.X_HO.theta, e_O);
+  PlanarTwist V_HP(v.x(), v.y(), turn);
+  if (options.acceleration > 0.0) {
+    V_HP *= options.acceleration / (1e-3 * options.speed_mm_s);
+  }
+  return V_HP;
+}
+
+void solve(const Options& options, const Model& model, InstantReport& report) {
+  if (options.solver == "closed") {
+    report.instant = solve_limit_surface(model.surface(), report.grasp.w_g, report.drive);
+    report.certificate_worst = limit_surface_residual(model.surface(), report.grasp.w_g,
+                                                      report.drive, report.instant);
+    return;
+  }
+  report.instant = options.solver == "ipopt"
+                       ? solve_reference(report.grasp, report.drive,
+                                         {.generators = options.generators})
+                       : solve_planar(report.grasp, report.drive);
+  report.certificate = certify(report.grasp, report.drive, report.instant);
+  report.certificate_worst = report.certificate.worst;
+}
+
+int run(const Options& options) {
+  const SceneFile file = read_scene(options.scene.file, options.scene.overrides);
+  const Model model = prepare(file.scene, {.points_per_pad = options.points});
+  const int contact = chosen_contact(model, options.push);
+  if (options.roll) return ask_roll(options, model, contact);
+  if (options.acceleration > 0.0 && options.solver == "closed") {
+    throw BadInput(
+        "--acceleration: expected --solver exact or ipopt: the closed form is "
+        "quasi-static");
+  }
+  const Grasp grasp = chosen_grasp(model, options.push);
+  const Vec2 e = chosen_direction(model, contact, options.push);
+  InstantReport report;
+  report.solver = options.solver;
+  report.question =
+      text("%s at place %.2f mm, direction %.2f deg from its normal, ",
+           contact_text(model, contact).c_str(), options.push.place_mm,
+           options.push.direction_deg) +
+      (options.acceleration > 0.0 ? text("acceleration %.4g m/s^2", options.acceleration)
+                                  : text("%.4g mm/s", options.speed_mm_s)) +
+      text(", turning %.4g deg/s; object at ", options.turn_deg_s) +
+      pose_text(model, grasp);
+  report.grasp = grasp_at(model, grasp.X_HO, model.contacts[contact].g_O);
+  if (options.acceleration > 0.0) add_inertia(model, grasp.X_HO, report.grasp);
+  report.drive = drive_at(model.contacts[contact], 1e-3 * options.push.place_mm,
+                          grasp.X_HO, pusher_rate(options, grasp, e));
+  solve(options, model, report);
+  return print(report, options.scene.json);
+}
+
+}  // namespace
+
+Command add_query_instant(CLI::App& query) {
+  auto options = std::make_shared<Options>();
+  CLI::App& command = *query.add_subcommand(
+      "instant", "least force that breaks the grasp, and how the object then moves");
+  add_scene_options(command, options->scene);
+  add_push_options(command, options->push);
+  command
+      .add_option("--speed-mm-s", options->speed_mm_s, "of the pusher at the finger axis")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  command
+      .add_option("--turn-deg-s", options->turn_deg_s,
+                  "of the pusher about the finger axis")
+      ->check(CLI::Range(-1e6, 1e6));
+  command
+      .add_option("--acceleration", options->acceleration,
+                  "[m/s^2] of the pusher from rest, instead of the quasi-static limit")
+      ->check(CLI::Range(0.0, 1e6));
+  command
+      .add_option("--solver", options->solver, "exact, closed (limit surface) or ipopt")
+      ->check(CLI::IsMember({"exact", "closed", "ipopt"}))
+      ->capture_default_str();
+  command
+      .add_option("--generators", options->generators, "friction generators g for ipopt")
+      ->check(CLI::IsMember({4, 8, 16, 32, 64}))
+      ->capture_default_str();
+  command.add_option("--points", options->points, "contact points per pad")
+      ->check(CLI::IsMember({1, 4, 8, 16, 32, 64}))
+      ->capture_default_str();
+  command.add_flag("--roll", options->roll,
+                   "move the pusher along the closing direction");
+  command.footer(
+      "Example:\n  prehensile query instant problems/paper/slide.yaml --solver exact");
+  return [options] { return run(*options); };
+}
+
+}  // namespace prehensile::apps

@@ -1,0 +1,164 @@
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/commands.h"
+#include "apps/json_number.h"
+#include "apps/plan_report.h"
+#include "apps/push_options.h"
+#include "apps/table.h"
+#include "io/scene_file.h"
+#include "primitives/transition.h"
+
+namespace prehensile::apps {
+namespace {
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+
+struct Options {
+  SceneOptions scene;
+  PushOptions push;
+  std::string kind = "push";
+  double travel_mm = 10.0;
+  double turn_deg = 0.0;
+  double tolerance_um = 1.0;
+  int points = 16;
+};
+
+Push make_push(const Options& options, const Model& model, int contact) {
+  const double place = 1e-3 * options.push.place_mm;
+  const double travel = 1e-3 * options.travel_mm;
+  const double turn = kRadPerDeg * options.turn_deg;
+  const Vec2 e = chosen_direction(model, contact, options.push);
+  if (options.kind == "slide") {
+    return Slide{.contact = contact, .place = place, .e = e, .travel = travel};
+  }
+  if (options.kind == "pivot")
+    return Pivot{.contact = contact, .place = place, .turn = turn};
+  if (options.kind == "roll") return Roll{.contact = contact, .travel = travel};
+  return LinearPush{
+      .contact = contact, .place = place, .e = e, .travel = travel, .turn = turn};
+}
+
+std::string describe(const Model& model, const Options& options,
+                     const Transition& transition, const std::vector<Sample>& trace) {
+  std::string out = options.kind + ": " + std::string(name(transition.status)) +
+                    text(" after %.1f %% of the push", 100.0 * transition.done) + '\n';
+  if (!transition.reason.empty()) out += std::string(transition.reason) + '\n';
+  Table table({"done %", "x mm", "y mm", "theta deg", "roll deg", "force N", "normal N",
+               "tangential N", "slip mm", "status"});
+  const std::size_t stride = std::max<std::size_t>(1, trace.size() / 20);
+  for (std::size_t i = 0; i < trace.size(); i += stride) {
+    const Sample& s = trace[i];
+    table.add({text("%.1f", 100.0 * s.s), text("%.3f", to_mm(s.grasp.X_HO.x)),
+               text("%.3f", to_mm(s.grasp.X_HO.y)),
+               text("%.3f", to_deg(s.grasp.X_HO.theta)),
+               text("%.3f", to_deg(s.grasp.psi)), text("%.4f", s.push_force),
+               text("%.4f", s.normal_force), text("%.4f", s.tangential_force),
+               text("%.4f", to_mm(s.slip_rate)), std::string(name(s.status))});
+  }
+  out += table.str();
+  for (int i = 0; i < transition.event_count; ++i) {
+    out += text("event at %.3f %%: ", 100.0 * transition.events[i].s) +
+           std::string(name(transition.events[i].kind)) + '\n';
+  }
+  out += "end: " + pose_text(model, transition.end) + '\n';
+  return out + text(
+                   "force %.4f to %.4f N, slipped %.3f mm, estimated error %.2g um, "
+                   "certificate "
+                   "%.0e, %d instants\n",
+                   transition.min_push_force, transition.max_push_force,
+                   to_mm(transition.slipped), 1e6 * transition.error_estimate,
+                   transition.worst_certificate, transition.instants);
+}
+
+nlohmann::ordered_json pose_json(const Grasp& grasp) {
+  return {{"x", number(grasp.X_HO.x)},
+          {"y", number(grasp.X_HO.y)},
+          {"theta", number(grasp.X_HO.theta)},
+          {"psi", number(grasp.psi)}};
+}
+
+nlohmann::ordered_json to_json(const Transition& transition,
+                               const std::vector<Sample>& trace) {
+  nlohmann::ordered_json out = {{"status", std::string(name(transition.status))},
+                                {"reason", std::string(transition.reason)},
+                                {"done", number(transition.done)},
+                                {"end", pose_json(transition.end)},
+                                {"min_push_force", number(transition.min_push_force)},
+                                {"max_push_force", number(transition.max_push_force)},
+                                {"slipped", number(transition.slipped)},
+                                {"error_estimate", number(transition.error_estimate)},
+                                {"certificate", number(transition.worst_certificate)},
+                                {"instants", transition.instants},
+                                {"events", nlohmann::ordered_json::array()},
+                                {"samples", nlohmann::ordered_json::array()}};
+  for (int i = 0; i < transition.event_count; ++i) {
+    out["events"].push_back({{"done", number(transition.events[i].s)},
+                             {"kind", std::string(name(transition.events[i].kind))}});
+  }
+  for (const Sample& s : trace) {
+    nlohmann::ordered_json sample = {{"done", number(s.s)}};
+    sample.update(pose_json(s.grasp));
+    sample.update({{"push_force", number(s.push_force)},
+                   {"normal_force", number(s.normal_force)},
+                   {"tangential_force", number(s.tangential_force)},
+                   {"slip", number(s.slip_rate)},
+                   {"status", std::string(name(s.status))},
+                   {"certificate", number(s.certificate)}});
+    out["samples"].push_back(sample);
+  }
+  return out;
+}
+
+int run(const Options& options) {
+  const SceneFile file = read_scene(options.scene.file, options.scene.overrides);
+  const Model model = prepare(file.scene, {.points_per_pad = options.points});
+  const int contact = chosen_contact(model, options.push);
+  const Push push = make_push(options, model, contact);
+  std::vector<Sample> trace;
+  const Transition transition = apply(model, chosen_grasp(model, options.push), push,
+                                      {.tolerance = 1e-6 * options.tolerance_um}, &trace);
+  if (options.scene.json) {
+    std::printf("%s\n", to_json(transition, trace).dump(2).c_str());
+  } else {
+    std::fputs(describe(model, options, transition, trace).c_str(), stdout);
+  }
+  return transition.completed() ? kDone : kNegative;
+}
+
+}  // namespace
+
+Command add_query_push(CLI::App& query) {
+  auto options = std::make_shared<Options>();
+  CLI::App& command = *query.add_subcommand("push", "one push from pose to pose");
+  add_scene_options(command, options->scene);
+  add_push_options(command, options->push);
+  command
+      .add_option("--kind", options->kind, "slide, pivot, roll, or push: the general one")
+      ->check(CLI::IsMember({"slide", "pivot", "roll", "push"}))
+      ->capture_default_str();
+  command.add_option("--travel-mm", options->travel_mm, "of the pusher (not for pivot)")
+      ->check(CLI::Range(-1e4, 1e4))
+      ->capture_default_str();
+  command.add_option("--turn-deg", options->turn_deg, "of the pusher (pivot and push)")
+      ->check(CLI::Range(-3600.0, 3600.0))
+      ->capture_default_str();
+  command
+      .add_option("--tolerance-um", options->tolerance_um,
+                  "accepted error of the end pose")
+      ->check(CLI::Range(1e-6, 1e3))
+      ->capture_default_str();
+  command.add_option("--points", options->points, "contact points per pad")
+      ->check(CLI::IsMember({1, 4, 8, 16, 32, 64}))
+      ->capture_default_str();
+  command.footer(
+      "Example:\n  prehensile query push problems/paper/slide.yaml --kind slide "
+      "--travel-mm 15");
+  return [options] { return run(*options); };
+}
+
+}  // namespace prehensile::apps

@@ -1,0 +1,52 @@
+#!/usr/bin/env bash
+# Installs the Debian packages that are missing: for building and testing, and with --lint those
+# of the format and lint checks too. Does nothing where everything is there.
+set -euo pipefail
+
+packages=(
+  build-essential cmake ninja-build
+  libeigen3-dev                                   # linear algebra
+  libompl-dev libboost-serialization-dev          # sampling planners, and what their package
+  libboost-filesystem-dev libboost-system-dev     # needs but does not ask for
+  libnlopt-cxx-dev coinor-libipopt-dev            # optimisation
+  libyaml-cpp-dev nlohmann-json3-dev libcli11-dev # files and command line
+  libgtest-dev libvalijson-dev                    # tests only
+)
+if [ "${1:-}" = "--lint" ]; then
+  packages+=(clang clang-format clang-tidy git)
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  status=$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null) || status=""
+  case "$status" in
+    "install ok installed") ;;
+    *) missing+=("$package") ;;
+  esac
+done
+if [ ${#missing[@]} -eq 0 ]; then
+  exit 0
+fi
+
+echo "Installing from Debian: ${missing[*]}"
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  if ! command -v sudo >/dev/null; then
+    echo "error: missing ${missing[*]}; run this as root, or install sudo" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+if ! command -v apt-get >/dev/null; then
+  echo "error: missing ${missing[*]}; this script knows Debian's apt-get only" >&2
+  exit 1
+fi
+"${as_root[@]}" apt-get update -qq || {
+  echo "error: apt-get update failed; still missing: ${missing[*]}" >&2
+  exit 1
+}
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+  apt-get install -y -q --no-install-recommends "${missing[@]}" || {
+  echo "error: apt-get could not install: ${missing[*]}" >&2
+  exit 1
+}

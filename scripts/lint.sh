@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# Format and lint: clang-format on every source, clang-tidy with the profile in .clang-tidy.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+bash scripts/install_dependencies.sh --lint
+mapfile -t sources < <(git ls-files '*.h' '*.cpp')
+clang-format --dry-run --Werror "${sources[@]}"
+echo "clang-format: ${#sources[@]} files clean"
+
+cmake --preset release -DPREHENSILE_WARNINGS_AS_ERRORS=ON >/dev/null
+mapfile -t units < <(git ls-files '*.cpp')
+printf '%s\0' "${units[@]}" |
+  xargs -0 -n 1 -P "$(nproc)" clang-tidy --quiet --warnings-as-errors='*' -p build/release \
+    2> >(grep -v -E 'warnings? generated|Suppressed|Use -header-filter' >&2)
+echo "clang-tidy: ${#units[@]} files clean"

@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds the program, plans one of the shipped problems and says where
+# the plan lies. Safe to run again.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+bash scripts/install_dependencies.sh
+cmake --preset release
+cmake --build --preset release --target prehensile
+
+echo
+problem=problems/slide_then_pivot.yaml
+echo "build/release/prehensile plan $problem -o plan.json"
+exec build/release/prehensile plan "$problem" -o plan.json

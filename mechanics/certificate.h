@@ -1,7 +1,7 @@
 /// The certificate of an instant: residuals computed from the question and the answer
 /// alone. Shares no code with any solver; its rows are derived here again.
 ///
-/// Every entry is dimensionless (units F0, V0, L0 of MECHANICS 5, computed here), 0 is
+/// Every entry is dimensionless (units F0, V0, L0, computed here), 0 is
 /// perfect, and carries the index of its worst point. Source: paper section VI-A, the
 /// entries of the checks below in that order.
 #pragma once
@@ -15,7 +15,8 @@ namespace prehensile {
 
 struct CertificateEntry {
   double value = kNan;
-  int worst = -1;  ///< index of the contact point (pusher points after finger points), or row
+  int worst =
+      -1;  ///< index of the contact point (pusher points after finger points), or row
 };
 
 struct Certificate {
@@ -38,19 +39,19 @@ struct Certificate {
 };
 std::string_view name(Certificate::Check check);
 
-/// Checks an answer. An answer without a motion is accepted only if its evidence is valid;
-/// kNotRun, kOutOfIterations and kBadInput are never accepted.
+/// Checks an answer. An answer without a motion is accepted only if its evidence is
+/// valid; kNotRun, kOutOfIterations and kBadInput are never accepted.
 Certificate certify(const PlanarGrasp& grasp, const PlanarDrive& drive,
                     const PlanarInstant& answer) noexcept;
 
-/// Two-sided bounds on the push force for a given direction of the push wrench p (per unit
-/// of force), MECHANICS eq. (4): any twist u with p.u = 1 gives an upper bound.
-/// Valid in the quasi-static limit with known finger loads.
+/// Two-sided bounds on the push force for a given direction of the push wrench p (per
+/// unit of force): any twist u with p.u = 1 gives an upper bound. Valid in the
+/// quasi-static limit with known finger loads.
 double force_upper_bound(const PlanarGrasp& grasp, const PlanarWrench& p,
                          const PlanarTwist& u) noexcept;
 
-/// Whether the fingers alone hold gravity: least slack of D(u) - w_g.u over unit twists u,
-/// in units of F0; positive means held. `worst` receives the minimising twist.
+/// Whether the fingers alone hold gravity: least slack of D(u) - w_g.u over unit twists
+/// u, in units of F0; positive means held. `worst` receives the minimising twist.
 double gravity_slack(const PlanarGrasp& grasp, PlanarTwist* worst = nullptr) noexcept;
 
 }  // namespace prehensile

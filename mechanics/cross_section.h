@@ -1,10 +1,10 @@
-/// Rolling in the cross-section of a round object between flat jaws (MECHANICS 3): v_z
+/// Rolling in the cross-section of a round object between flat jaws: v_z
 /// along the closing direction, v_u along the support normal, roll rate, jaw rate; three
 /// contacts with four modes each, all 64 combinations examined, so that the answer comes
 /// with its verdict on uniqueness.
 ///
 /// Contacts: jaw 1 at -r and jaw 2 at +r along z, the support ("sheet") at -r along u.
-/// Positive roll rate turns z towards u. Closed forms: MECHANICS 8 D and E.
+/// Positive roll rate turns z towards u. Source: paper section VII-C.
 #pragma once
 
 #include <array>

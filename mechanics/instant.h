@@ -1,7 +1,7 @@
 /// The answer about one instant: how the object moves, what the pusher must exert, what
 /// every contact point carries and does. Common to all planar solvers.
 ///
-/// Source: paper section VI; statuses of MECHANICS 9.
+/// Source: paper section VI.
 #pragma once
 
 #include <array>
@@ -15,18 +15,19 @@ namespace prehensile {
 inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 enum class InstantStatus {
-  kNotRun,           ///< nothing below is valid
-  kMoves,            ///< twist and forces valid and unique
-  kHolds,            ///< the object stands still and the pusher slides along it; forces valid
-  kNonuniqueForces,  ///< the motion is unique, the forces are one valid choice; interval set
-  kAmbiguous,        ///< at least two certified motions: twist and `other` (or gravity is not
-                     ///< held by the grasp alone and the pusher carries the object)
-  kSeparated,        ///< the pusher leaves the object, which stays in the grasp
-  kDynamic,          ///< no quasi-static equilibrium: `evidence` is a twist with which gravity
-                     ///< gains more power than friction can take; the object falls
-  kJammed,           ///< no motion is possible: `evidence` is a self-balanced set of forces
+  kNotRun,  ///< nothing below is valid
+  kMoves,   ///< twist and forces valid and unique
+  kHolds,   ///< the object stands still and the pusher slides along it; forces valid
+  kNonuniqueForces,  ///< the motion is unique, the forces are one valid choice; interval
+                     ///< set
+  kAmbiguous,  ///< at least two certified motions: twist and `other` (or gravity is not
+               ///< held by the grasp alone and the pusher carries the object)
+  kSeparated,  ///< the pusher leaves the object, which stays in the grasp
+  kDynamic,    ///< no quasi-static equilibrium: `evidence` is a twist with which gravity
+               ///< gains more power than friction can take; the object falls
+  kJammed,     ///< no motion is possible: `evidence` is a self-balanced set of forces
   kOutOfIterations,  ///< no answer; residual says how close the last iterate came
-  kBadInput,         ///< a zero push rate, no friction points, or a value that is not finite
+  kBadInput,  ///< a zero push rate, no friction points, or a value that is not finite
 };
 std::string_view name(InstantStatus status);
 
@@ -43,7 +44,8 @@ struct PusherPoint {
   double tangential_force = kNan;  ///< lambda_t [N] along t = perp(n)
   double normal_rate = kNan;       ///< c_n, >= 0; > 0 opens
   double slip_rate = kNan;         ///< c_t
-  ContactMode mode = ContactMode::kOpen;  ///< open, stick, slip plus or minus (sign of c_t)
+  ContactMode mode =
+      ContactMode::kOpen;  ///< open, stick, slip plus or minus (sign of c_t)
 };
 
 /// Friction force of both pads on the object at a finger point.
@@ -54,8 +56,10 @@ struct FingerPoint {
 
 struct PlanarInstant {
   InstantStatus status = InstantStatus::kNotRun;
-  PlanarTwist V_HO = PlanarTwist::Constant(kNan);  ///< object twist (acceleration if inertia)
-  PlanarWrench w_push = PlanarWrench::Constant(kNan);  ///< pusher on object, about origin of H
+  PlanarTwist V_HO =
+      PlanarTwist::Constant(kNan);  ///< object twist (acceleration if inertia)
+  PlanarWrench w_push =
+      PlanarWrench::Constant(kNan);  ///< pusher on object, about origin of H
   double push_force = kNan;  ///< |f| of w_push [N]; in the quasi-static limit the least
                              ///< pusher force that breaks the grasp
   int pusher_count = 0;

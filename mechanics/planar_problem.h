@@ -2,8 +2,8 @@
 /// with known loads, gravity, one pusher with one or two points, and its motion.
 /// Everything in H, about the origin of H (the finger axis).
 ///
-/// Source: paper sections IV to VI, reduced to the pad plane (MECHANICS 3, eq. (5)): the
-/// two fingers are merged, so point j carries the friction bound B_j.
+/// Source: paper sections IV to VI, reduced to the pad plane, where finger loads are
+/// known: the two fingers are merged, so point j carries the friction bound B_j.
 #pragma once
 
 #include <array>
@@ -35,7 +35,7 @@ struct PlanarGrasp {
 };
 
 /// One pusher: the points that touch (a line pusher by its two ends, paper section IV-D
-/// and MECHANICS 2.3) and its prescribed rigid motion.
+/// because the ends span its support) and its prescribed rigid motion.
 struct PlanarDrive {
   int count = 1;                                         ///< 1 point, 2 line
   std::array<Vec2, 2> p_HC{Vec2::Zero(), Vec2::Zero()};  ///< [m]
@@ -46,7 +46,7 @@ struct PlanarDrive {
   Vec2 t_H() const { return perp(n_H); }
 };
 
-/// Units that make a problem dimensionless (MECHANICS 5). Solver and certificate compute
+/// Units that make a problem dimensionless. Solver and certificate compute
 /// their own.
 struct PlanarUnits {
   double length = 0.0;  ///< L0 [m]

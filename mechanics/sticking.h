@@ -3,18 +3,27 @@
 ///
 /// A linear move keeps e (direction, in O) and kappa = c omega/|v| constant: the finger
 /// axis runs straight through the object while the hand turns at a constant rate. Over an
-/// isotropic pad its push wrench is constant, so one test certifies the whole push
-/// (PLANNER 1.2, 1.3 and 2).
+/// isotropic pad its push wrench is constant in O: the friction force depends on e and
+/// kappa only, and the moment p x v does not change while p runs along v. So one test
+/// certifies the whole push.
 ///
 /// Signs: the object moves with velocity |v| e relative to the hand, so p_OF moves along
 /// -e; kappa > 0 turns the object counter-clockwise.
+///
+/// Source of the stable-push test: motion cones of Chavan-Dafle, Holladay and Rodriguez
+/// (RSS 2018) over the ellipsoid of Howe and Cutkosky; the intervals are derived in
+/// sticking_kappas.cpp.
 #pragma once
 
 #include "mechanics/model.h"
 
 namespace prehensile {
 
-/// Box of uncertainty that a push must survive (PLANNER 4.6). Zero: nominal.
+/// A slack down to minus this still counts as sticking: the ends of a KappaSet are on the
+/// border, where rounding decides the sign.
+inline constexpr double kStickTolerance = 1e-9;
+
+/// Box of uncertainty that a push must survive. Zero: nominal.
 struct Margin {
   double friction = 0.10;        ///< relative, of the pusher
   double force = 0.10;           ///< relative, of m g / F
@@ -30,23 +39,35 @@ struct Margin {
 };
 
 /// A contact compiled for the sticking tests: ends in O, gravity as acceleration over F.
+///
+/// A line pusher carries load anywhere from a to b. A point pusher carries it at one
+/// place: a == b there, or a and b are the ends of the range from which the place of the
+/// push is still to be chosen. The margin of a point pusher applies to its friction cone
+/// only: an error of its place, of the centre of mass or of the torque radius changes how
+/// the object turns about the point, and not whether the point sticks.
 struct StickContact {
   Vec2 n, t, a, b;
+  Vec2 centre = Vec2::Zero();  ///< [m] of the face: where places are counted from
   double mu = 0.0;
   Vec2 gamma = Vec2::Zero();  ///< m g_O / F, dimensionless
   Vec2 p_OCom = Vec2::Zero();
-  double c = 0.0;  ///< [m]
+  double c = 0.0;  ///< [m] > 0
+  bool is_point = false;
 };
+
+/// The model's F and c must be positive.
 StickContact stick_contact(const Model& model, const PushContact& contact, double place);
 
-/// At most three closed intervals of kappa; unbounded ends are +-infinity.
+/// At most four closed intervals of kappa in ascending order; unbounded ends are
+/// +-infinity. One interval is the rule; gaps appear only where gravity helps to keep the
+/// contact.
 struct KappaSet {
   struct Interval {
     double lo = 0.0;
     double hi = 0.0;
   };
   int count = 0;
-  std::array<Interval, 3> intervals;
+  std::array<Interval, 4> intervals;
 
   bool contains(double kappa) const;
   bool empty() const { return count == 0; }
@@ -54,12 +75,15 @@ struct KappaSet {
 
 /// All kappa for which the contact sticks while the finger axis is at p_OF and the object
 /// moves along e (unit, in O), over the ellipsoid; closed form. For a point contact
-/// (a == b) the set is one value at most.
+/// (a == b) the set is a single value, or two where the moment of gravity about the point
+/// exceeds F c. No heap.
 KappaSet sticking_kappas(const StickContact& contact, const Vec2& p_OF,
                          const Vec2& e) noexcept;
 
-/// The same for every member of the box of uncertainty: corners of (m/F, c), least
-/// friction, ends moved inward. A subset of the nominal set.
+/// The same for every member of the box of uncertainty at the same omega/|v|; kappa still
+/// counts with the nominal c. A subset of the nominal set, and equal to the intersection
+/// over the box unless the moment of gravity about a face end exceeds 2 F c: there the
+/// set may be too small, never too large. No heap.
 KappaSet robust_kappas(const StickContact& contact, const Vec2& p_OF, const Vec2& e,
                        const Margin& margin) noexcept;
 
@@ -75,19 +99,32 @@ struct StickTest {
              ///< >= 0: sticks
 };
 
-/// One instant with the friction wrench of the ellipsoid; v_e = |v|, omega any common
-/// scale.
+/// One instant with the friction wrench of the ellipsoid. The object moves with (v e,
+/// omega) relative to the hand, in any common scale: v >= 0 [m], omega [rad], not both
+/// zero (NaN). At a point contact (a == b) the moment is an equation, not an inequality:
+/// met within 1e-9 F c it does not count in the slack. No heap.
 StickTest stick_test(const StickContact& contact, double F, const Vec2& p_OF,
                      const Vec2& e, double v, double omega) noexcept;
 
-/// One instant with the real pad region at this pose, worst over the box. Also holds for
-/// pads that are not isotropic. The object moves with (v e, omega) relative to the hand.
+/// Least slack of that instant over the box of uncertainty; velocity = v e, in O. No
+/// heap.
+double robust_slack(const StickContact& contact, const Vec2& p_OF, const Vec2& velocity,
+                    double omega, const Margin& margin) noexcept;
+
+/// One instant with the real pad region at this pose: forces nominal, slack worst over
+/// the box, where the torque radius scales the pad about the finger axis. Also holds for
+/// pads that are not isotropic. The object moves with (v e, omega) relative to the hand;
+/// v == 0 turns it about the finger axis. Slack -infinity where the pads have lost the
+/// face. At a point pusher a moment within 1e-3 F c counts as met: the quadrature of a
+/// disc is isotropic to that order only. A pad point at the centre of rotation, whose
+/// friction has no direction, counts as zero. No heap.
 StickTest exact_stick_test(const Model& model, const PushContact& contact, double place,
                            const PlanarPose& X_HO, const Vec2& e, double v, double omega,
                            const Margin& margin) noexcept;
 
 /// The grasp alone holds gravity g_O at this place, by the ellipsoid with this margin:
-/// 1 - load, positive: held.
+/// 1 - load, positive: held. The load is convex in p_OF: held at both ends of a straight
+/// move, gravity is held all along it.
 double holding_slack(const Model& model, const Vec2& p_OF, const Vec2& g_O,
                      const Margin& margin) noexcept;
 

@@ -1,6 +1,6 @@
 /// A regrasp plan and everything that is known about it.
 ///
-/// Cost J = S + T / L (PLANNER 3): S pusher placements (runs of pushes by the same pusher
+/// Cost J = S + T / L: S pusher placements (runs of pushes by the same pusher
 /// at the same place), T travel = path length of (p_OF, c theta, r psi) [m], L longer
 /// side of the object. The published cost, 1 per push by a new pusher and 0.1 by the
 /// same, is reported beside it.

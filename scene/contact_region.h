@@ -1,5 +1,6 @@
 /// Where a pad presses: the contact region is pad and object surface together, replaced
-/// by points with weights (quadrature, never corner points: MECHANICS 2.3).
+/// by points with weights (quadrature, never corner points, which would hold too much
+/// torque).
 ///
 /// Flat pad on a flat face: the pad, clipped by the face unless the scene says `ignore`.
 /// Flat pad on the curved side of a cylinder: the part of the generator line under the

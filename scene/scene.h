@@ -61,7 +61,7 @@ struct PointPad {};
 
 using Pad = std::variant<DiscPad, RectanglePad, LinePad, PointPad>;
 
-/// How the two jaws are driven along the closing direction (MECHANICS 2.4).
+/// How the two jaws are driven along the closing direction.
 enum class JawMode {
   kCoupled,    ///< one actuator, symmetric jaws; their forces sum to twice the grip force
   kFixedJaw1,  ///< jaw 1 stands still, jaw 2 presses with the grip force

@@ -1,10 +1,9 @@
 /// Exact steering in the flat space (p_OF, c theta): which contact does a straight move,
 /// and with which rotation. Shared by our search and by OMPL's planners.
 ///
-/// Over an isotropic pad the closed form is exact (sticking_kappas). Other pads are
+/// Over an isotropic pad the closed form decides (sticking_kappas). Other pads are
 /// steered by the same closed form with their torque radius, and every move is then
-/// checked with the real pad at points along it (`move_survives`), and cut or dropped if
-/// it fails.
+/// checked with the real pad at points along it, and dropped if it fails there.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +15,8 @@
 namespace prehensile {
 
 /// A point of the search: place of the finger axis in O [m] and angle of O in H [rad],
-/// not wrapped. Roll is no part of it: it is additive (PLANNER 5).
+/// not wrapped. Roll is no part of it: turning a round object about its own axis changes
+/// neither.
 struct FlatState {
   Vec2 p_OF = Vec2::Zero();
   double theta = 0.0;
@@ -31,12 +31,14 @@ struct Work {
   bool spent() const { return stick_tests + propagations >= budget; }
 };
 
-/// A contact at one place, compiled for steering.
+/// A contact compiled for steering. A line pusher stands at `place`. A point pusher
+/// stands wherever from place_low to place_high the push needs it (see push_of); its
+/// `stick` spans that range, so it is steered like a line.
 struct SearchContact {
   StickContact stick;
   int contact = 0;                           ///< index in Model::contacts
   double place = 0.0;                        ///< [m]
-  double place_low = 0.0, place_high = 0.0;  ///< range the place may be moved in [m]
+  double place_low = 0.0, place_high = 0.0;  ///< [m] equal to `place` for a line pusher
 };
 
 /// The model as the search sees it.
@@ -47,6 +49,10 @@ struct SearchModel {
   bool exact_everywhere = false;  ///< isotropic pad: no move needs the pad check
 };
 
+/// Compiles the contacts: a line pusher that covers its face stands at the face's centre,
+/// a shorter one at places so close that they cover the face, a point pusher anywhere on
+/// the face but `margin.place` from its ends. No contacts where the grasp has no friction
+/// or no torque (point pads). `model` must outlive the result.
 SearchModel prepare_search(const Model& model, const Margin& margin);
 
 /// One straight move by one contact: kappa = c dtheta / |dp|.
@@ -55,26 +61,33 @@ struct Move {
   FlatState from, to;
 };
 
-/// The push that a move stands for. For point pushers and short lines the place is put
-/// where the centre of pressure lies.
-LinearPush push_of(const SearchModel& search, const Move& move);
+/// Pose of O in H when the share s in [0, 1] of a move is done.
+PlanarPose pose_along(const FlatState& from, const FlatState& to, double s) noexcept;
+
+/// The push that a move stands for. For point pushers the place is put where the centre
+/// of pressure of the real pad lies at the middle of the move.
+LinearPush push_of(const SearchModel& search, const Move& move) noexcept;
 
 /// Whether the straight move from -> to is a sticking push of this contact for the whole
 /// box of uncertainty, stays on the object, and holds gravity at both ends. Directed: the
-/// reverse move is another question.
+/// reverse move is another question. A move that goes nowhere is no push: false. No heap.
 bool move_sticks(const SearchModel& search, int contact, const FlatState& from,
                  const FlatState& to, Work& work) noexcept;
 
-/// The contact that does the move (preferring `preferred`), if any.
+/// The contact that does the move (preferring `preferred`, else the first), if any. No
+/// heap.
 std::optional<Move> direct_move(const SearchModel& search, const FlatState& from,
                                 const FlatState& to, Work& work,
                                 int preferred = -1) noexcept;
 
-/// Least robust slack of a move with the real pad, checked at `points` places along it.
+/// Least robust slack of a move with the real pad, checked at `points` >= 2 places along
+/// it, its ends included. No heap.
 double move_slack(const SearchModel& search, const Move& move, int points,
                   Work& work) noexcept;
 
-/// The finger axis stays on the object along the straight segment (in O).
-bool segment_on_object(const Model& model, const Vec2& from_p_OF, const Vec2& to_p_OF);
+/// The finger axis stays on the object along the straight segment (in O), border
+/// included. Exact for any simple outline, up to rounding. No heap.
+bool segment_on_object(const Model& model, const Vec2& from_p_OF,
+                       const Vec2& to_p_OF) noexcept;
 
 }  // namespace prehensile

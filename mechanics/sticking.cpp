@@ -1,0 +1,209 @@
+#include "mechanics/sticking.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace prehensile {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kEllipsoidMoment = 1e-9;  // tolerances at a point contact, over F c
+constexpr double kPadMoment = 1e-3;
+
+/// Wrench about the finger axis that overcomes the friction of the pads, over F; in O.
+struct Drag {
+  Vec2 force = Vec2::Zero();
+  double moment = 0.0;  ///< [m]
+};
+
+/// The ellipsoid's drag for a twist (velocity, omega) of any scale, with torque radius c.
+Drag ellipsoid_drag(double c, const Vec2& velocity, double omega) {
+  const double speed = std::sqrt(velocity.squaredNorm() + c * c * omega * omega);
+  return {velocity / speed, c * c * omega / speed};
+}
+
+/// The same of the real pad, its points moved away from the finger axis by `stretch`.
+Drag pad_drag(const Model& model, const PlanarGrasp& grasp, double theta,
+              const Vec2& velocity, double omega, double stretch) {
+  const Vec2 velocity_H = rotated(theta, velocity);
+  Vec2 force_H = Vec2::Zero();
+  double moment = 0.0;
+  for (int j = 0; j < grasp.count; ++j) {
+    const Vec2 r = stretch * Vec2(grasp.x[j], grasp.y[j]);
+    const Vec2 slip = velocity_H + omega * perp(r);
+    const double speed = slip.norm();
+    if (speed == 0.0) continue;
+    const Vec2 f = grasp.bound[j] / speed * slip;
+    force_H += f;
+    moment += cross(r, f);
+  }
+  return {rotated(-theta, force_H) / model.F, moment / model.F};
+}
+
+/// Push wrench on the object over F: what remains of the drag after gravity.
+struct Effort {
+  Vec2 force;
+  double moment_a, moment_b;  ///< [m] about the ends of the face
+};
+
+Effort effort_of(const StickContact& contact, const Vec2& p_OF, const Drag& drag,
+                 double gravity) {
+  const Vec2 force = drag.force - gravity * contact.gamma;
+  const double moment =
+      drag.moment - gravity * cross(contact.p_OCom - p_OF, contact.gamma);
+  return {force, moment + cross(p_OF - contact.a, force),
+          moment + cross(p_OF - contact.b, force)};
+}
+
+double cone_slack(const StickContact& contact, const Effort& effort) {
+  const double f_n = effort.force.dot(contact.n);
+  const double slack = contact.mu * f_n - std::abs(effort.force.dot(contact.t));
+  return contact.mu == 0.0 ? std::min(slack, f_n) : slack;
+}
+
+/// b lies after a along t, so pressure between them has a negative moment about a and a
+/// positive one about b.
+double end_slack(const StickContact& contact, const Effort& effort) {
+  return std::min(-effort.moment_a, effort.moment_b) / contact.c;
+}
+
+/// A single point cannot choose its moment: nothing to test within the tolerance.
+double point_slack(const StickContact& contact, const Effort& effort, double tolerance) {
+  const double slack = end_slack(contact, effort);
+  return contact.a == contact.b && slack >= -tolerance ? kInfinity : slack;
+}
+
+/// The worst of the box that is known beforehand: least friction, ends moved inward. The
+/// moments are affine in a shift of the pusher, with the positive normal force as slope.
+StickContact weakened(const StickContact& contact, const Margin& margin) {
+  StickContact weak = contact;
+  weak.mu *= std::max(0.0, 1.0 - margin.friction);
+  if (!contact.is_point) {
+    weak.a += margin.place * contact.t;
+    weak.b -= margin.place * contact.t;
+  }
+  return weak;
+}
+
+/// Least slack of a weakened contact at one drag over the box of m/F and centre of mass,
+/// in both of which the rows are affine.
+double slack_of_drag(const StickContact& weak, const Vec2& p_OF, const Drag& drag,
+                     const Margin& margin) {
+  double slack = kInfinity;
+  for (const double gravity : {1.0 - margin.force, 1.0 + margin.force}) {
+    const Effort effort = effort_of(weak, p_OF, drag, gravity);
+    slack = std::min(slack, cone_slack(weak, effort));
+    if (weak.is_point) continue;
+    const double shift = gravity * margin.centre_of_mass * weak.gamma.norm() / weak.c;
+    slack = std::min(slack, end_slack(weak, effort) - shift);
+  }
+  return slack;
+}
+
+StickTest reported(const StickContact& contact, const Vec2& p_OF, const Drag& drag,
+                   double F, double moment_tolerance) {
+  const Effort effort = effort_of(contact, p_OF, drag, 1.0);
+  StickTest test;
+  test.push_force = F * effort.force.norm();
+  test.normal_force = F * effort.force.dot(contact.n);
+  test.tangential_force = F * effort.force.dot(contact.t);
+  const double from_a = -F * effort.moment_a / test.normal_force;
+  test.centre_of_pressure = (contact.a - contact.centre).dot(contact.t) + from_a;
+  test.slack = std::min(cone_slack(contact, effort),
+                        point_slack(contact, effort, moment_tolerance));
+  return test;
+}
+
+}  // namespace
+
+StickContact stick_contact(const Model& model, const PushContact& contact, double place) {
+  const PushContact::Segment segment = contact.segment(place);
+  StickContact stick;
+  stick.n = contact.n;
+  stick.t = contact.t;
+  stick.a = segment.a;
+  stick.b = segment.b;
+  stick.centre = 0.5 * (contact.a + contact.b);
+  stick.mu = contact.mu;
+  stick.gamma = model.mass / model.F * contact.g_O;
+  stick.p_OCom = model.p_OCom;
+  stick.c = model.c;
+  stick.is_point = contact.is_point;
+  return stick;
+}
+
+StickTest stick_test(const StickContact& contact, double F, const Vec2& p_OF,
+                     const Vec2& e, double v, double omega) noexcept {
+  const Drag drag = ellipsoid_drag(contact.c, v * e, omega);
+  return reported(contact, p_OF, drag, F, kEllipsoidMoment);
+}
+
+double robust_slack(const StickContact& contact, const Vec2& p_OF, const Vec2& velocity,
+                    double omega, const Margin& margin) noexcept {
+  const StickContact weak = weakened(contact, margin);
+  const auto slack_at = [&](double c) {
+    return slack_of_drag(weak, p_OF, ellipsoid_drag(c, velocity, omega), margin);
+  };
+  const double c_lo = (1.0 - margin.torque_radius) * contact.c;
+  const double c_hi = (1.0 + margin.torque_radius) * contact.c;
+  double slack = std::min(slack_at(c_lo), slack_at(c_hi));
+  if (contact.is_point) {
+    const Drag nominal = ellipsoid_drag(contact.c, velocity, omega);
+    const Effort effort = effort_of(contact, p_OF, nominal, 1.0);
+    return std::min(slack, point_slack(contact, effort, kEllipsoidMoment));
+  }
+  // The moment about an end x has one stationary point in c, where
+  // c^2 omega^2 + 2 |v|^2 = omega cross(p - x, v): nearly always outside the box.
+  for (const Vec2& end : {weak.a, weak.b}) {
+    const double squared =
+        omega * cross(p_OF - end, velocity) - 2.0 * velocity.squaredNorm();
+    const double c_omega_lo = c_lo * std::abs(omega);
+    const double c_omega_hi = c_hi * std::abs(omega);
+    if (squared <= c_omega_lo * c_omega_lo || squared >= c_omega_hi * c_omega_hi)
+      continue;
+    slack = std::min(slack, slack_at(std::sqrt(squared) / std::abs(omega)));
+  }
+  return slack;
+}
+
+StickTest exact_stick_test(const Model& model, const PushContact& contact, double place,
+                           const PlanarPose& X_HO, const Vec2& e, double v, double omega,
+                           const Margin& margin) noexcept {
+  StickTest test;
+  const PlanarGrasp grasp = grasp_at(model, X_HO, contact.g_O);
+  if (grasp.count == 0) {
+    test.slack = -kInfinity;
+    return test;
+  }
+  StickContact stick = stick_contact(model, contact, place);
+  if (stick.c == 0.0) stick.c = model.L;  // a point pad has no torque to count moments in
+  const Vec2 p_OF = finger_in_object(X_HO);
+  const auto drag_at = [&](double stretch) {
+    return pad_drag(model, grasp, X_HO.theta, v * e, omega, stretch);
+  };
+  const Drag nominal = drag_at(1.0);
+  test = reported(stick, p_OF, nominal, model.F, kPadMoment);
+  const StickContact weak = weakened(stick, margin);
+  test.slack = std::min(test.slack, slack_of_drag(weak, p_OF, nominal, margin));
+  if (margin.torque_radius == 0.0) return test;
+  for (const double stretch : {1.0 - margin.torque_radius, 1.0 + margin.torque_radius}) {
+    test.slack =
+        std::min(test.slack, slack_of_drag(weak, p_OF, drag_at(stretch), margin));
+  }
+  return test;
+}
+
+double holding_slack(const Model& model, const Vec2& p_OF, const Vec2& g_O,
+                     const Margin& margin) noexcept {
+  const double weight = (1.0 + margin.force) * model.mass * g_O.norm();
+  if (weight == 0.0) return 1.0;
+  const double moment =
+      (1.0 + margin.force) * model.mass * std::abs(cross(model.p_OCom - p_OF, g_O)) +
+      margin.centre_of_mass * weight;
+  const double c = (1.0 - margin.torque_radius) * model.c;
+  return 1.0 - std::hypot(weight / model.F, moment / (model.F * c));
+}
+
+}  // namespace prehensile

@@ -1,0 +1,222 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "mechanics/sticking.h"
+
+namespace prehensile {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Rounding of a direction cosine: lets a frictionless pusher push exactly along its
+/// normal.
+constexpr double kConeRounding = 1e-12;
+
+struct Gap {
+  double lo = kInfinity;
+  double hi = -kInfinity;
+};
+
+/// Solutions of one inequality in kappa: the closed interval [lo, hi] without the open
+/// gap.
+struct Solutions {
+  double lo = -kInfinity;
+  double hi = kInfinity;
+  Gap gap;
+
+  static Solutions none() { return {kInfinity, -kInfinity, {}}; }
+};
+
+/// { kappa : A >= B sigma }, sigma = sqrt(1 + kappa^2): an edge of the friction cone.
+Solutions friction_solutions(double A, double B) {
+  Solutions solutions;
+  if (B == 0.0) return A >= -kConeRounding ? solutions : Solutions::none();
+  if (A >= B && B < 0.0) return solutions;
+  if (A < B && B > 0.0) return Solutions::none();
+  const double K = std::sqrt((A - B) * (A + B)) / std::abs(B);
+  if (B > 0.0) {
+    solutions.lo = -K;
+    solutions.hi = K;
+  } else {
+    solutions.gap = {-K, K};
+  }
+  return solutions;
+}
+
+/// { kappa : q kappa + A >= B sigma }, q > 0: the moment about a face end has the right
+/// sign.
+///
+/// Squared, the border is D kappa^2 + 2 q A kappa + A^2 - B^2 = 0 with D = q^2 - B^2 and
+/// roots (-q A -+ B S) / D, S = sqrt(A^2 + D). Where -q A and B S cancel, the root is
+/// taken from the product (B^2 - A^2) / (q A + B S), which also stays finite at D = 0.
+/// |B| < q: the left side less the right rises strictly, a ray. B >= q: it is concave,
+/// an interval or nothing. B <= -q: it is convex, everything or all but a gap.
+Solutions end_solutions(double q, double A, double B) {
+  Solutions solutions;
+  const double D = (q - B) * (q + B);
+  const double squared = A * A + D;
+  if (D > 0.0) {
+    const double S = std::sqrt(squared);
+    solutions.lo =
+        A * B > 0.0 ? (B - A) * (B + A) / (q * A + B * S) : (B * S - q * A) / D;
+    return solutions;
+  }
+  if (B > 0.0) {
+    if (A <= 0.0 || squared < 0.0) return Solutions::none();
+    const double sum = q * A + B * std::sqrt(squared);
+    solutions.lo = (B - A) * (B + A) / sum;
+    solutions.hi = sum / std::abs(D);
+    return solutions;
+  }
+  if (A >= 0.0 || squared <= 0.0) return solutions;
+  const double sum = -q * A - B * std::sqrt(squared);
+  solutions.gap = {-sum / std::abs(D), (A - B) * (A + B) / sum};
+  return solutions;
+}
+
+Solutions mirrored(const Solutions& s) { return {-s.hi, -s.lo, {-s.gap.hi, -s.gap.lo}}; }
+
+/// Intersection of solutions. Gaps of the same constraint in different members of the box
+/// are joined to one, which can only make the set smaller.
+class Intersection {
+ public:
+  enum Constraint { kFriction, kEndA, kEndB, kConstraintCount };
+
+  /// `ratio`: kappa of these solutions over kappa of the set.
+  void keep(Constraint constraint, const Solutions& solutions, double ratio = 1.0) {
+    lo_ = std::max(lo_, solutions.lo / ratio);
+    hi_ = std::min(hi_, solutions.hi / ratio);
+    if (solutions.gap.lo >= solutions.gap.hi) return;
+    Gap& gap = gaps_[constraint];
+    gap.lo = std::min(gap.lo, solutions.gap.lo / ratio);
+    gap.hi = std::max(gap.hi, solutions.gap.hi / ratio);
+    has_gaps_ = true;
+  }
+
+  KappaSet set() {
+    KappaSet set;
+    if (!(lo_ <= hi_)) return set;
+    if (!has_gaps_) {
+      append(set, lo_, hi_);
+      return set;
+    }
+    std::sort(gaps_.begin(), gaps_.end(),
+              [](const Gap& x, const Gap& y) { return x.lo < y.lo; });
+    double from = lo_;
+    for (const Gap& gap : gaps_) {
+      if (gap.lo >= hi_) break;
+      if (gap.hi <= from) continue;
+      if (gap.lo >= from && gap.lo > -kInfinity) append(set, from, gap.lo);
+      from = gap.hi;
+    }
+    if (from <= hi_ && from < kInfinity) append(set, from, hi_);
+    return set;
+  }
+
+ private:
+  static void append(KappaSet& set, double lo, double hi) {
+    set.intervals[set.count] = {lo, hi};
+    ++set.count;
+  }
+
+  double lo_ = -kInfinity;
+  double hi_ = kInfinity;
+  bool has_gaps_ = false;
+  std::array<Gap, kConstraintCount> gaps_;
+};
+
+/// Least and greatest factor of a parameter with a relative uncertainty.
+struct Factors {
+  explicit Factors(double relative) : lo(1.0 - relative), hi(1.0 + relative) {}
+  double lo, hi;
+
+  /// The greatest value of factor x B: the worst right side of A >= B.
+  double worst(double B) const { return B > 0.0 ? hi * B : lo * B; }
+};
+
+/// Friction cone over the box. Between least and greatest c, sigma is monotone, so the
+/// two ends decide; the least friction is the worst because the normal force is positive.
+void keep_cone(const StickContact& contact, const Vec2& e, const Margin& margin,
+               Intersection& kept) {
+  const Factors force(margin.force);
+  const Factors radius(margin.torque_radius);
+  const double mu = contact.mu * std::max(0.0, 1.0 - margin.friction);
+  const double e_n = e.dot(contact.n);
+  const double e_t = e.dot(contact.t);
+  const double gamma_n = contact.gamma.dot(contact.n);
+  const double gamma_t = contact.gamma.dot(contact.t);
+  const auto keep_row = [&](double A, double B) {
+    const Solutions solutions = friction_solutions(A, force.worst(B));
+    kept.keep(Intersection::kFriction, solutions, radius.hi);
+    if (radius.lo < radius.hi) kept.keep(Intersection::kFriction, solutions, radius.lo);
+  };
+  keep_row(mu * e_n - e_t, mu * gamma_n - gamma_t);
+  keep_row(mu * e_n + e_t, mu * gamma_n + gamma_t);
+  if (mu == 0.0)
+    keep_row(e_n, gamma_n);  // the edges of a cone without width allow pulling
+}
+
+/// One face end over the box: { kappa : c kappa + A >= B sigma } for end b; the mirror
+/// image (kappa, A, B with the other sign) is the condition of end a.
+///
+/// At fixed w = omega/|v| > 0 the left side over sigma, as a function of c, either rises
+/// or first falls to 2 sqrt(1 + c^2 w^2) / w >= 2 c and then rises. So the ends of the
+/// box decide unless B > 2 c and A > 0; there the bound c^2 w / sigma >= c_lo^2 w /
+/// sigma_hi joins in.
+template <class Keep>
+void keep_end(double c, double A, double B, const Factors& radius, Keep&& keep) {
+  keep(end_solutions(c * radius.hi, A, B), radius.hi);
+  if (radius.lo == radius.hi) return;
+  keep(end_solutions(c * radius.lo, A, B), radius.lo);
+  if (B <= 2.0 * c * radius.lo || A <= 0.0) return;
+  keep(end_solutions(c * radius.lo * radius.lo / radius.hi, A, B), radius.hi);
+}
+
+/// Both face ends over the box. The moments are affine in m/F, in the place of the pusher
+/// and in the centre of mass, so the worst of each is known beforehand.
+void keep_ends(const StickContact& contact, const Vec2& p_OF, const Vec2& e,
+               const Margin& margin, Intersection& kept) {
+  const Factors force(margin.force);
+  const Factors radius(margin.torque_radius);
+  const Vec2 a = contact.a + margin.place * contact.t;
+  const Vec2 b = contact.b - margin.place * contact.t;
+  const double shift = margin.centre_of_mass * contact.gamma.norm();
+  const double A_a = cross(p_OF - a, e);
+  const double A_b = cross(p_OF - b, e);
+  const double B_a = shift - cross(contact.p_OCom - a, contact.gamma);
+  const double B_b = shift + cross(contact.p_OCom - b, contact.gamma);
+  keep_end(contact.c, -A_a, force.worst(B_a), radius,
+           [&](const Solutions& solutions, double ratio) {
+             kept.keep(Intersection::kEndA, mirrored(solutions), ratio);
+           });
+  keep_end(contact.c, A_b, force.worst(B_b), radius,
+           [&](const Solutions& solutions, double ratio) {
+             kept.keep(Intersection::kEndB, solutions, ratio);
+           });
+}
+
+}  // namespace
+
+bool KappaSet::contains(double kappa) const {
+  for (int i = 0; i < count; ++i) {
+    if (kappa >= intervals[i].lo && kappa <= intervals[i].hi) return true;
+  }
+  return false;
+}
+
+KappaSet sticking_kappas(const StickContact& contact, const Vec2& p_OF,
+                         const Vec2& e) noexcept {
+  return robust_kappas(contact, p_OF, e, Margin::none());
+}
+
+KappaSet robust_kappas(const StickContact& contact, const Vec2& p_OF, const Vec2& e,
+                       const Margin& margin) noexcept {
+  Intersection kept;
+  keep_cone(contact, e, margin, kept);
+  keep_ends(contact, p_OF, e, contact.is_point ? Margin::none() : margin, kept);
+  return kept.set();
+}
+
+}  // namespace prehensile

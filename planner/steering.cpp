@@ -1,0 +1,212 @@
+#include "planner/steering.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "planner/segment.h"
+
+namespace prehensile {
+namespace {
+
+// Spacing of the points at which a pad that is not isotropic is checked along a move.
+constexpr double kCheckTurn = 0.1;     // [rad]
+constexpr double kCheckTravel = 2e-3;  // [m]
+constexpr int kMostChecks = 24;
+
+constexpr int kFewestPlaces = 3;  // of a line pusher shorter than its face
+constexpr int kMostPlaces = 9;
+
+void add_line(const Model& model, int index, double place,
+              std::vector<SearchContact>& contacts) {
+  const StickContact stick = stick_contact(model, model.contacts[index], place);
+  contacts.push_back({stick, index, place, place, place});
+}
+
+/// Places so close that the segments of neighbours overlap by half.
+void add_short_line(const Model& model, int index, double room,
+                    std::vector<SearchContact>& contacts) {
+  const double steps = std::ceil(2.0 * room / model.contacts[index].half_length);
+  const int count = std::clamp(1 + static_cast<int>(std::min(steps, 1.0 * kMostPlaces)),
+                               kFewestPlaces, kMostPlaces);
+  for (int i = 0; i < count; ++i) {
+    add_line(model, index, room * (2.0 * i / (count - 1) - 1.0), contacts);
+  }
+}
+
+void add_point(const Model& model, int index, double room,
+               std::vector<SearchContact>& contacts) {
+  if (room <= 0.0) return;
+  SearchContact contact{stick_contact(model, model.contacts[index], 0.0), index, 0.0,
+                        -room, room};
+  contact.stick.a -= room * contact.stick.t;
+  contact.stick.b += room * contact.stick.t;
+  contacts.push_back(contact);
+}
+
+bool held(const SearchModel& search, const PushContact& contact, const Vec2& p_OF) {
+  return holding_slack(*search.model, p_OF, contact.g_O, search.margin) > 0.0;
+}
+
+/// A move as the mechanics sees it: twist of the object relative to the hand over the
+/// whole move, in O.
+struct Motion {
+  Vec2 velocity;  ///< [m]
+  double omega;   ///< [rad]
+
+  Motion(const FlatState& from, const FlatState& to)
+      : velocity(from.p_OF - to.p_OF), omega(to.theta - from.theta) {}
+  double travel() const { return velocity.norm(); }
+  Vec2 direction(const Vec2& if_none) const {
+    const double v = travel();
+    return v > 0.0 ? Vec2(velocity / v) : if_none;
+  }
+};
+
+StickTest pad_test(const SearchModel& search, const Move& move, double place,
+                   double share, const Margin& margin) {
+  const PushContact& contact =
+      search.model->contacts[search.contacts[move.contact].contact];
+  const Motion motion(move.from, move.to);
+  return exact_stick_test(
+      *search.model, contact, place, pose_along(move.from, move.to, share),
+      motion.direction(contact.n), motion.travel(), motion.omega, margin);
+}
+
+double place_of(const SearchModel& search, const Move& move) {
+  const SearchContact& contact = search.contacts[move.contact];
+  if (contact.place_low == contact.place_high) return contact.place;
+  const double wanted =
+      pad_test(search, move, contact.place, 0.5, Margin::none()).centre_of_pressure;
+  if (!std::isfinite(wanted)) return contact.place;
+  return std::clamp(wanted, contact.place_low, contact.place_high);
+}
+
+/// The closed form over the ellipsoid, and gravity.
+bool passes_closed_form(const SearchModel& search, int index, const FlatState& from,
+                        const FlatState& to, Work& work) {
+  ++work.stick_tests;
+  const SearchContact& contact = search.contacts[index];
+  const Motion motion(from, to);
+  const double slack = robust_slack(contact.stick, from.p_OF, motion.velocity,
+                                    motion.omega, search.margin);
+  if (!(slack >= -kStickTolerance)) return false;  // NaN: goes nowhere
+  const PushContact& pushed = search.model->contacts[contact.contact];
+  return held(search, pushed, from.p_OF) && held(search, pushed, to.p_OF);
+}
+
+/// Whole discs on the face all along the move: the closed form needs no further check.
+bool is_isotropic_along(const SearchModel& search, const FlatState& from,
+                        const FlatState& to) {
+  if (search.exact_everywhere) return true;
+  const Model& model = *search.model;
+  if (!model.region.is_isotropic()) return false;
+  const double radius = std::get<DiscPad>(model.scene.gripper.pad).radius;
+  return distance_to_border(model.outline, from.p_OF, to.p_OF) >= radius;
+}
+
+/// How many points of a move are looked at.
+int check_points(const FlatState& from, const FlatState& to) {
+  const Motion motion(from, to);
+  const double steps =
+      std::max(std::abs(motion.omega) / kCheckTurn, motion.travel() / kCheckTravel);
+  return static_cast<int>(std::clamp(std::ceil(steps) + 1.0, 2.0, 1.0 * kMostChecks));
+}
+
+/// The real pad at points along the move.
+bool passes_pad_check(const SearchModel& search, int contact, const FlatState& from,
+                      const FlatState& to, Work& work) {
+  if (is_isotropic_along(search, from, to)) return true;
+  const Move move{contact, from, to};
+  const double place = place_of(search, move);
+  const int points = check_points(from, to);
+  for (int i = 0; i < points; ++i) {
+    ++work.stick_tests;
+    const double share = static_cast<double>(i) / (points - 1);
+    const StickTest test = pad_test(search, move, place, share, search.margin);
+    if (!(test.slack >= -kStickTolerance)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+SearchModel prepare_search(const Model& model, const Margin& margin) {
+  SearchModel search;
+  search.model = &model;
+  search.margin = margin;
+  search.exact_everywhere =
+      model.region.is_isotropic() && model.region.is_fixed_in_hand();
+  if (!(model.F > 0.0 && model.c > 0.0)) return search;
+  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
+    const PushContact& contact = model.contacts[i];
+    const int index = static_cast<int>(i);
+    const double half_face = 0.5 * (contact.b - contact.a).norm();
+    if (contact.is_point) {
+      add_point(model, index, half_face - margin.place, search.contacts);
+    } else if (contact.half_length >= half_face) {
+      add_line(model, index, 0.0, search.contacts);
+    } else {
+      add_short_line(model, index, half_face - contact.half_length, search.contacts);
+    }
+  }
+  return search;
+}
+
+PlanarPose pose_along(const FlatState& from, const FlatState& to, double s) noexcept {
+  const Vec2 p_OF = from.p_OF + s * (to.p_OF - from.p_OF);
+  return pose_from_finger(p_OF, from.theta + s * (to.theta - from.theta));
+}
+
+LinearPush push_of(const SearchModel& search, const Move& move) noexcept {
+  const SearchContact& contact = search.contacts[move.contact];
+  const Motion motion(move.from, move.to);
+  LinearPush push;
+  push.contact = contact.contact;
+  push.place = place_of(search, move);
+  push.e = motion.direction(contact.stick.n);
+  push.travel = motion.travel();
+  push.turn = motion.omega;
+  return push;
+}
+
+bool move_sticks(const SearchModel& search, int contact, const FlatState& from,
+                 const FlatState& to, Work& work) noexcept {
+  return passes_closed_form(search, contact, from, to, work) &&
+         segment_inside(search.model->outline, from.p_OF, to.p_OF) &&
+         passes_pad_check(search, contact, from, to, work);
+}
+
+std::optional<Move> direct_move(const SearchModel& search, const FlatState& from,
+                                const FlatState& to, Work& work, int preferred) noexcept {
+  const int count = static_cast<int>(search.contacts.size());
+  bool on_object = false;
+  for (int i = -1; i < count; ++i) {
+    const int contact = i < 0 ? preferred : i;
+    if (contact < 0 || (i >= 0 && contact == preferred)) continue;
+    if (!passes_closed_form(search, contact, from, to, work)) continue;
+    on_object = on_object || segment_inside(search.model->outline, from.p_OF, to.p_OF);
+    if (!on_object) return std::nullopt;
+    if (passes_pad_check(search, contact, from, to, work)) return Move{contact, from, to};
+  }
+  return std::nullopt;
+}
+
+double move_slack(const SearchModel& search, const Move& move, int points,
+                  Work& work) noexcept {
+  const double place = place_of(search, move);
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < points; ++i) {
+    ++work.stick_tests;
+    const double share = static_cast<double>(i) / (points - 1);
+    least = std::min(least, pad_test(search, move, place, share, search.margin).slack);
+  }
+  return least;
+}
+
+bool segment_on_object(const Model& model, const Vec2& from_p_OF,
+                       const Vec2& to_p_OF) noexcept {
+  return segment_inside(model.outline, from_p_OF, to_p_OF);
+}
+
+}  // namespace prehensile

@@ -1,0 +1,123 @@
+/// The architecture as a test: includes point to the left only, and third parties stay in
+/// their rooms.
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace prehensile {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kRoot = PREHENSILE_SOURCE_DIR;
+
+/// What each folder may include.
+const std::map<std::string, std::set<std::string>> kLeftOf = {
+    {"scene", {"scene"}},
+    {"optimisation", {"optimisation"}},
+    {"mechanics", {"scene", "optimisation", "mechanics"}},
+    {"primitives", {"scene", "optimisation", "mechanics", "primitives"}},
+    {"planner", {"scene", "optimisation", "mechanics", "primitives", "planner"}},
+    {"problems",
+     {"scene", "optimisation", "mechanics", "primitives", "planner", "problems"}},
+    {"io", {"scene", "optimisation", "mechanics", "primitives", "planner", "io"}},
+    {"apps",
+     {"scene", "optimisation", "mechanics", "primitives", "planner", "io", "apps"}},
+};
+
+/// Where a third party, or a part of the standard library, may be named.
+struct Room {
+  std::regex include;
+  std::regex allowed;  // of the path relative to the root
+};
+
+std::vector<Room> rooms() {
+  const std::string rim = "|^(benchmarks|tests|examples)/.*";
+  const auto room = [&rim](const char* include, const std::string& allowed) {
+    return Room{std::regex(include), std::regex(allowed + rim)};
+  };
+  return {
+      room("^ompl/", "^planner/ompl/.*|^planner/ompl_interface\\.h$"),
+      room("^nlopt", "^optimisation/nlopt_backend\\.cpp$"),
+      room("^Ip.*\\.hpp$|^coin", "^optimisation/ipopt_backend\\.cpp$"),
+      room("^yaml-cpp/", "^io/.*"),
+      room("^nlohmann/", "^(io|apps)/.*"),
+      room("^CLI/", "^apps/.*"),
+      room("^(iostream|fstream)$", "^(io|apps)/.*"),
+      room("^random$", "^$"),
+      room("^chrono$", "^planner/.*"),
+      room("^thread$", "^$"),
+  };
+}
+
+struct Include {
+  std::string file;
+  int line;
+  std::string what;
+};
+
+std::vector<Include> all_includes() {
+  const std::regex pattern(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
+  std::vector<Include> includes;
+  for (const auto& [folder, left] : kLeftOf) {
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
+      const std::string extension = entry.path().extension().string();
+      if (extension != ".h" && extension != ".cpp") continue;
+      std::ifstream in(entry.path());
+      std::string text;
+      for (int line = 1; std::getline(in, text); ++line) {
+        std::smatch match;
+        if (!std::regex_search(text, match, pattern)) continue;
+        includes.push_back({fs::relative(entry.path(), kRoot).string(), line, match[1]});
+      }
+    }
+  }
+  return includes;
+}
+
+TEST(Layers, IncludesPointToTheLeft) {
+  int checked = 0;
+  for (const Include& include : all_includes()) {
+    const std::string target = include.what.substr(0, include.what.find('/'));
+    if (!kLeftOf.contains(target)) continue;
+    const std::string folder = include.file.substr(0, include.file.find('/'));
+    EXPECT_TRUE(kLeftOf.at(folder).contains(target))
+        << include.file << ':' << include.line << " includes " << include.what;
+    ++checked;
+  }
+  EXPECT_GT(checked, 100);
+}
+
+TEST(Layers, ThirdPartiesStayInTheirRooms) {
+  const std::vector<Room> all = rooms();
+  for (const Include& include : all_includes()) {
+    for (const Room& room : all) {
+      if (!std::regex_search(include.what, room.include)) continue;
+      EXPECT_TRUE(std::regex_match(include.file, room.allowed))
+          << include.file << ':' << include.line << " includes " << include.what;
+    }
+  }
+}
+
+TEST(Layers, HeadersHaveOneGuardAndNoUsingNamespace) {
+  for (const auto& [folder, left] : kLeftOf) {
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
+      if (entry.path().extension() != ".h") continue;
+      std::ifstream in(entry.path());
+      const std::string text((std::istreambuf_iterator<char>(in)), {});
+      EXPECT_NE(text.find("#pragma once"), std::string::npos) << entry.path();
+      EXPECT_EQ(text.find("using namespace"), std::string::npos) << entry.path();
+      EXPECT_TRUE(text.starts_with("///"))
+          << entry.path() << " starts without a description";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace prehensile

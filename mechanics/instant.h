@@ -48,10 +48,11 @@ struct PusherPoint {
       ContactMode::kOpen;  ///< open, stick, slip plus or minus (sign of c_t)
 };
 
-/// Friction force of both pads on the object at a finger point.
+/// Friction force of both pads on the object at a finger point. Not initialised: filling
+/// the whole capacity would cost more than a closed-form solve.
 struct FingerPoint {
-  Vec2 force = Vec2::Constant(kNan);      ///< [N] in H
-  ContactMode mode = ContactMode::kSlip;  ///< stick or slip
+  Vec2 force;        ///< [N] in H
+  ContactMode mode;  ///< stick or slip
 };
 
 struct PlanarInstant {
@@ -65,7 +66,7 @@ struct PlanarInstant {
   int pusher_count = 0;
   std::array<PusherPoint, 2> pusher;
   int finger_count = 0;
-  std::array<FingerPoint, PlanarGrasp::kCapacity> finger;
+  std::array<FingerPoint, PlanarGrasp::kCapacity> finger;  ///< [0, finger_count) are set
 
   double residual = kNan;  ///< solver's own natural-map residual in units (F0, V0)
   int iterations = 0;

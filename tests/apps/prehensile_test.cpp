@@ -1,0 +1,142 @@
+/// The command line as its users meet it: output, exit codes, files.
+#include <regex>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/apps/program.h"
+
+namespace prehensile::testing {
+namespace {
+
+using nlohmann::json;
+
+const std::string kScene = "problems/slide_then_pivot.yaml";
+
+TEST(Program, PlansWritesAndChecks) {
+  const Folder folder;
+  const std::string plan = folder.path("plan.json").string();
+  const Outcome planned = run_program("plan " + kScene + " -o " + plan);
+  ASSERT_EQ(planned.exit_code, 0) << planned.out << planned.err;
+  EXPECT_NE(planned.out.find("plan file: " + plan), std::string::npos);
+  EXPECT_NE(planned.out.find("lower bound"), std::string::npos);
+  const Outcome checked = run_program("check " + plan);
+  EXPECT_EQ(checked.exit_code, 0) << checked.out;
+  EXPECT_NE(checked.out.find("the plan holds"), std::string::npos);
+}
+
+TEST(Program, AnEditedPlanFailsTheCheck) {
+  const Folder folder;
+  const std::string file = folder.path("plan.json").string();
+  ASSERT_EQ(run_program("plan " + kScene + " -o " + file).exit_code, 0);
+  json plan = json::parse(read_text(file));
+  plan["pushes"][0]["travel"] = plan["pushes"][0]["travel"].get<double>() + 0.003;
+  write_text(file, plan.dump());
+  const Outcome checked = run_program("check " + file);
+  EXPECT_EQ(checked.exit_code, 1) << checked.out << checked.err;
+  EXPECT_NE(checked.out.find("FAILED"), std::string::npos);
+}
+
+TEST(Program, SameSeedAndBudgetGiveTheSamePlan) {
+  const Folder folder;
+  const auto plan = [&](const std::string& name) {
+    const std::string file = folder.path(name).string();
+    EXPECT_EQ(
+        run_program("plan problems/published/tee_05.yaml --seed 3 -o " + file).exit_code,
+        0);
+    json result = json::parse(read_text(file));
+    result.erase("seconds");
+    return result;
+  };
+  EXPECT_EQ(plan("one.json"), plan("two.json"));
+}
+
+TEST(Program, JsonIsOneObjectAndNothingElse) {
+  const Folder folder;
+  const std::string plan = folder.path("plan.json").string();
+  for (const std::string& arguments :
+       {"plan " + kScene + " --json -o " + plan, "check --json " + plan,
+        "inspect --json " + kScene, "query instant --json " + kScene,
+        "query push --json " + kScene + " --travel-mm 5",
+        std::string("query instant --json --roll problems/paper/roll.yaml")}) {
+    const Outcome outcome = run_program(arguments);
+    EXPECT_LE(outcome.exit_code, 1) << arguments << outcome.err;
+    EXPECT_TRUE(json::accept(outcome.out)) << arguments << '\n' << outcome.out;
+  }
+}
+
+TEST(Program, AllInstantSolversAnswerTheSameQuestion) {
+  double force[3] = {};
+  int i = 0;
+  for (const char* solver : {"exact", "closed", "ipopt"}) {
+    const Outcome outcome = run_program(
+        "query instant --json problems/paper/slide.yaml --solver " + std::string(solver));
+    ASSERT_EQ(outcome.exit_code, 0) << solver << outcome.out << outcome.err;
+    force[i++] = json::parse(outcome.out)["push_force"].get<double>();
+  }
+  EXPECT_NEAR(force[1] / force[0], 1.0, 1e-9);
+  EXPECT_NEAR(force[2] / force[0], 1.0, 0.05);
+}
+
+TEST(Program, BadInputEndsWithTwoAndLeavesNothing) {
+  const Folder folder;
+  const Folder output;
+  const std::string scene = folder.path("scene.yaml").string();
+  write_text(scene,
+             "version: 1\nobject:\n  box: {size: [0.1, 0.1, 0.03]}\n  mass: -2\n"
+             "gripper: {pad: {disc: {radius: 0.009}}, friction: 0.9, grip_force: 25}\n"
+             "goal: {x: 0.01}\n");
+  const Outcome outcome =
+      run_program("plan " + scene + " -o " + output.path("plan.json").string());
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_TRUE(outcome.out.empty());
+  EXPECT_NE(outcome.err.find(scene + ":4: object.mass: -2"), std::string::npos)
+      << outcome.err;
+  EXPECT_TRUE(output.empty());
+}
+
+TEST(Program, AnUnwritableOutputIsNamed) {
+  const Outcome outcome = run_program("plan " + kScene + " -o /nowhere/at/all/plan.json");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("/nowhere/at/all"), std::string::npos) << outcome.err;
+}
+
+TEST(Program, OverridesAreCheckedLikeTheFile) {
+  EXPECT_EQ(run_program("inspect " + kScene + " --set gripper.grip_force=30").exit_code,
+            0);
+  const Outcome unknown = run_program("inspect " + kScene + " --set gripper.grip=30");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.err.find("gripper.grip"), std::string::npos) << unknown.err;
+  const Outcome negative =
+      run_program("inspect " + kScene + " --set gripper.grip_force=-3");
+  EXPECT_EQ(negative.exit_code, 2);
+  EXPECT_NE(negative.err.find("-3"), std::string::npos) << negative.err;
+}
+
+TEST(Program, AGoalOffTheObjectIsRefusedWithAProof) {
+  const Folder folder;
+  const std::string plan = folder.path("plan.json").string();
+  const Outcome outcome = run_program("plan " + kScene + " --set goal.x=0.5 -o " + plan);
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.out << outcome.err;
+  EXPECT_NE(outcome.out.find("proof"), std::string::npos) << outcome.out;
+  EXPECT_EQ(run_program("check " + plan).exit_code, 0);
+}
+
+TEST(Program, WrongUseEndsWithTwoAndHelpWithZero) {
+  EXPECT_EQ(run_program("").exit_code, 2);
+  EXPECT_EQ(run_program("plan").exit_code, 2);
+  EXPECT_EQ(run_program("plan " + kScene + " --planner nonsense").exit_code, 2);
+  EXPECT_EQ(run_program("plan " + kScene + " --budget 0").exit_code, 2);
+  EXPECT_EQ(run_program("check /dev/null").exit_code, 2);
+  EXPECT_EQ(run_program("--help").exit_code, 0);
+  for (const char* command :
+       {"plan", "check", "query instant", "query push", "inspect"}) {
+    const Outcome help = run_program(std::string(command) + " --help");
+    EXPECT_EQ(help.exit_code, 0) << command;
+    EXPECT_NE(help.out.find("Example"), std::string::npos) << command;
+  }
+}
+
+}  // namespace
+}  // namespace prehensile::testing

@@ -1,0 +1,181 @@
+#include "mechanics/limit_surface.h"
+
+#include "mechanics/push_verdict.h"
+
+namespace prehensile {
+namespace {
+
+/// The ellipsoid in its own units, where it is the unit sphere: every problem of
+/// PushModes is a plane, a ray or a line against the sphere.
+class UnitSphere {
+ public:
+  double dissipation(const PlanarTwist& u) const { return u.norm(); }
+
+  PlanarWrench resistance(const PlanarTwist& u, const Pivot&) const {
+    const double norm = u.norm();
+    return norm > 0.0 ? PlanarWrench(u / norm) : PlanarWrench(PlanarWrench::Zero());
+  }
+
+  Pivot pivot_at(const PlanarTwist&) const { return {}; }
+  void choose_pivot_force(const ScaledPush&, Motion&) const {}
+
+  PlanarTwist scaled_twist(const RayExit& exit, double scale) const {
+    return scale * exit.u;
+  }
+
+  bool holds(const PlanarWrench& w, PlanarTwist* unsupported) const {
+    const double load = w.norm();
+    if (load < 1.0) return true;
+    *unsupported = w / load;
+    return false;
+  }
+
+  RayExit exit(const PlanarWrench& w, const PlanarWrench& e, const PlanarTwist*) const {
+    const double a = e.squaredNorm();
+    const double b = w.dot(e);
+    const double c = w.squaredNorm() - 1.0;
+    const double discriminant = b * b - a * c;
+    if (!(discriminant > 0.0)) return {};
+    const double root = std::sqrt(discriminant);
+    const double lambda = b > 0.0 ? -c / (b + root) : (root - b) / a;
+    return {true, lambda, w + lambda * e, {}};
+  }
+
+  /// On u = (part of u0 at right angles to d) + r d/|d|, power is sqrt(q^2 + r^2) - k r.
+  LowestOnLine lowest(const PlanarTwist& u0, const PlanarTwist& d,
+                      const PlanarWrench& w) const {
+    const PlanarTwist unit = d.normalized();
+    const double k = w.dot(unit);
+    if (!(std::abs(k) < 1.0)) return {};
+    const PlanarTwist across = u0 - u0.dot(unit) * unit;
+    return {true, across + k * across.norm() / std::sqrt(1.0 - k * k) * unit, {}};
+  }
+
+  /// m.(V + s t) = target |V + s t|, with m.t = 1 and |t| = 1: a quadratic in s.
+  int slides(const PlanarTwist& V, const PlanarTwist& along, const Vec2& m, double target,
+             int slip, int capacity, double* roots) const {
+    const double A = m.dot(V.head<2>());
+    const double B = V.dot(along);
+    const double target2 = target * target;
+    const double a = 1.0 - target2;
+    const double b = A - target2 * B;
+    const double c = A * A - target2 * V.squaredNorm();
+    double candidate[2];
+    int candidates = 0;
+    if (std::abs(a) <= 1e-14) {
+      if (b != 0.0) candidate[candidates++] = -0.5 * c / b;
+    } else if (const double discriminant = b * b - a * c; discriminant >= 0.0) {
+      const double q = -(b + std::copysign(std::sqrt(discriminant), b));
+      candidate[candidates++] = q / a;
+      if (q != 0.0) candidate[candidates++] = c / q;
+    }
+    int count = 0;
+    for (int i = 0; i < candidates && count < capacity; ++i) {
+      const double s = candidate[i];
+      const bool same_sign = (A + s) * target >= 0.0;
+      if (s * slip > 0.0 && same_sign) roots[count++] = s;
+    }
+    return count;
+  }
+};
+
+}  // namespace
+
+PlanarWrench LimitSurface::friction(const PlanarTwist& V) const noexcept {
+  const double turn = c * V[2];
+  const double rate = std::sqrt(V[0] * V[0] + V[1] * V[1] + turn * turn);
+  return -F / rate * PlanarWrench(V[0], V[1], c * turn);
+}
+
+PlanarTwist LimitSurface::sliding_twist(const PlanarWrench& friction) const noexcept {
+  return {-friction[0], -friction[1], -friction[2] / (c * c)};
+}
+
+double LimitSurface::load(const PlanarWrench& w) const noexcept {
+  const double turn = w[2] / c;
+  return std::sqrt(w[0] * w[0] + w[1] * w[1] + turn * turn) / F;
+}
+
+PlanarInstant solve_limit_surface(const LimitSurface& surface, const PlanarWrench& w_g,
+                                  const PlanarDrive& drive) noexcept {
+  PlanarInstant answer;
+  const bool has_surface = surface.F > 0.0 && surface.c > 0.0 &&
+                           std::isfinite(surface.F) && std::isfinite(surface.c);
+  if (!has_surface || !is_sane(w_g, drive) || !(contact_rate(drive) > 0.0)) {
+    answer.status = InstantStatus::kBadInput;
+    return answer;
+  }
+  const ScaledPush push = scaled(w_g, drive, Vec2::Zero(), surface.c, surface.F);
+  report(push, judge_push(UnitSphere{}, push, nullptr, false), answer);
+  return answer;
+}
+
+namespace {
+
+/// The pusher's own law at one point, from the answer's forces and rates: how far
+/// 0 <= normal force _|_ gap rate >= 0 and Coulomb's law are from holding.
+double contact_violation(const PusherPoint& point, double mu, const Vec2& rate, double F,
+                         double v0) {
+  const double normal = point.normal_force / F;
+  const double tangential = point.tangential_force / F;
+  const double opening = rate.x() / v0;
+  const double slip = rate.y() / v0;
+  const double unilateral = std::abs(std::min(normal, opening));
+  const double cone = std::abs(tangential) - mu * normal;
+  // Energy form of Coulomb's law: friction takes the greatest power that the cone allows.
+  const double power = tangential * slip + mu * normal * std::abs(slip);
+  const double kinematics = std::max(std::abs(point.normal_rate - rate.x()),
+                                     std::abs(point.slip_rate - rate.y())) /
+                            v0;
+  return std::max({unilateral, cone, std::abs(power), kinematics});
+}
+
+bool has_motion(InstantStatus status) {
+  return usable(status) || status == InstantStatus::kAmbiguous;
+}
+
+}  // namespace
+
+double limit_surface_residual(const LimitSurface& surface, const PlanarWrench& w_g,
+                              const PlanarDrive& drive,
+                              const PlanarInstant& answer) noexcept {
+  if (!has_motion(answer.status)) {
+    // A fall: gravity gains more power than friction can take, and the pusher is not
+    // pressed.
+    if (answer.status != InstantStatus::kDynamic) return kNan;
+    const PlanarTwist& v = answer.evidence;
+    const double friction_power = -surface.friction(v).dot(v);
+    double violation = std::max(0.0, 1.0 - w_g.dot(v) / friction_power);
+    for (int i = 0; i < drive.count; ++i) {
+      const Vec2 rate = point_velocity(v, drive.p_HC[i]);
+      const double reach = std::max(surface.c, drive.p_HC[i].norm());
+      const double speed = v.head<2>().norm() + reach * std::abs(v[2]);
+      violation = std::max(violation, -drive.n_H.dot(rate) / speed);
+    }
+    return violation;
+  }
+  double v0 = 0.0;
+  double worst = 0.0;
+  PlanarWrench push = PlanarWrench::Zero();
+  for (int i = 0; i < drive.count; ++i) {
+    v0 = std::max(v0, point_velocity(drive.V_HP, drive.p_HC[i]).norm());
+  }
+  for (int i = 0; i < drive.count; ++i) {
+    const PusherPoint& point = answer.pusher[i];
+    const Vec2 relative = point_velocity(answer.V_HO - drive.V_HP, drive.p_HC[i]);
+    const Vec2 rate(drive.n_H.dot(relative), drive.t_H().dot(relative));
+    worst = std::max(worst, contact_violation(point, drive.mu, rate, surface.F, v0));
+    const Vec2 f = point.normal_force * drive.n_H + point.tangential_force * drive.t_H();
+    push += wrench_of(drive.p_HC[i], f);
+  }
+  worst = std::max(worst, surface.load(push - answer.w_push));
+  worst =
+      std::max(worst, std::abs(answer.push_force - push.head<2>().norm()) / surface.F);
+  const Vec3 scaled_twist(answer.V_HO[0], answer.V_HO[1], surface.c * answer.V_HO[2]);
+  if (scaled_twist.norm() <= 1e-14 * v0) {
+    return std::max(worst, surface.load(w_g + push) - 1.0);
+  }
+  return std::max(worst, surface.load(w_g + push + surface.friction(answer.V_HO)));
+}
+
+}  // namespace prehensile

@@ -1,0 +1,184 @@
+/// The quasi-static instant as a short list of pusher modes, each of them one convex or
+/// scalar problem over the friction of the pads. Internal to the mechanics layer.
+///
+/// D(u) is the power that friction takes at twist u; it is the support function of the
+/// convex body S of wrenches that the pads can resist, and its gradient is the resisting
+/// wrench. Balance: w_g + w_push in S, and normal to S there is the twist (paper eq. (8)
+/// with maximum dissipation, eq. (3) and (4), in the limit of slow pushes).
+///
+///   both ends of a line stick:  u = V
+///   both ends slip:             u = V + s t, one scalar equation in s
+///   one point sticks:           u = V + s (turn about the point), lowest D on that line
+///   one point slips:            the ray from w_g along the edge of the friction cone
+///                               leaves S (or, if gravity lies outside, also enters it)
+///
+/// A `Body` offers D in one of two forms (real pads, ellipsoid):
+///   resistance(u, pivot), exit(w, e, guess), lowest(u, d, w), slides(...), holds(w,
+///   worst), scaled_twist(exit, scale), choose_pivot_force(push, motion).
+#pragma once
+
+#include <algorithm>
+
+#include <Eigen/Geometry>
+
+#include "mechanics/scaled_push.h"
+
+namespace prehensile {
+
+/// Where the ray w + lambda e, lambda increasing, leaves S; u is the normal there, e.u >
+/// 0.
+struct RayExit {
+  bool hit = false;
+  double lambda = 0.0;
+  PlanarTwist u = PlanarTwist::Zero();
+  Pivot pivot;
+};
+
+/// The lowest point of D(u) - w.u on a line of twists.
+struct LowestOnLine {
+  bool bounded = false;
+  PlanarTwist u = PlanarTwist::Zero();
+  Pivot pivot;
+};
+
+/// A proposal is a motion if nothing is off by more than this, in units of ScaledPush.
+inline constexpr double kJudged = 1e-9;
+
+/// Rates below this are the rounding of a pusher that moves along its face.
+inline constexpr double kGrazing = 1e-13;
+
+template <class Body>
+class PushModes {
+ public:
+  PushModes(const Body& body, const ScaledPush& push) : body_(body), push_(push) {}
+
+  bool both_stick(Motion& motion) const {
+    motion = Motion{};
+    motion.support = Motion::Support::kBoth;
+    motion.u = push_.V;
+    motion.pivot = body_.pivot_at(motion.u);
+    return stuck(motion);
+  }
+
+  bool point_sticks(int i, Motion& motion) const {
+    motion = Motion{};
+    motion.support = static_cast<Motion::Support>(i);
+    const Vec2& p = push_.p[i];
+    const LowestOnLine low = body_.lowest(push_.V, {p.y(), -p.x(), 1.0}, push_.w_g);
+    if (!low.bounded) return false;
+    motion.u = low.u;
+    motion.pivot = low.pivot;
+    return stuck(motion);
+  }
+
+  /// `enters`: where the ray enters S instead; only if gravity lies outside.
+  bool point_slips(int i, int slip, bool enters, const PlanarTwist* guess,
+                   Motion& motion) const {
+    motion = Motion{};
+    motion.support = static_cast<Motion::Support>(i);
+    motion.slip = slip;
+    const PlanarWrench e = wrench_of(push_.p[i], push_.edge(slip));
+    const RayExit exit = body_.exit(push_.w_g, enters ? -e : e, guess);
+    if (!exit.hit) return false;
+    const double rate = push_.n.dot(point_velocity(exit.u, push_.p[i]));
+    const double scale = push_.approach(i) / rate;
+    if (!(scale > 0.0) || !std::isfinite(scale)) return false;
+    motion.pivot = exit.pivot;
+    motion.u = body_.scaled_twist(exit, scale);
+    return slid(motion);
+  }
+
+  /// Up to `capacity` motions in which both ends slip; returns how many.
+  int both_slip(int slip, Motion* motions, int capacity) const {
+    const Vec2 m = push_.t + slip * push_.mu * push_.n;
+    const double target = m.dot(push_.w_g.head<2>());
+    const PlanarTwist along(push_.t.x(), push_.t.y(), 0.0);
+    std::array<double, 4> roots;
+    const int count = body_.slides(push_.V, along, m, target, slip,
+                                   std::min<int>(capacity, roots.size()), roots.data());
+    int accepted = 0;
+    for (int k = 0; k < count; ++k) {
+      Motion& motion = motions[accepted];
+      motion = Motion{};
+      motion.support = Motion::Support::kBoth;
+      motion.slip = slip;
+      motion.u = push_.V + roots[k] * along;
+      if (slid(motion)) ++accepted;
+    }
+    return accepted;
+  }
+
+  /// One loaded point. While the pads hold gravity the directions of force and of motion
+  /// turn the same way around S, so the side on which the sticking force leaves the
+  /// friction cone is the side to which the point slips.
+  bool point_moves(int i, Motion& motion) const {
+    if (point_sticks(i, motion)) return true;
+    const double tangential = push_.t.dot(motion.w.head<2>());
+    const int slip = tangential > 0.0 ? -1 : 1;
+    return point_slips(i, slip, false, nullptr, motion) ||
+           point_slips(i, -slip, false, nullptr, motion);
+  }
+
+  /// Some motion with an advancing pusher, the likely modes first.
+  bool any_motion(Motion& motion) const {
+    if (push_.count == 1) return point_moves(0, motion);
+    if (both_stick(motion)) return true;
+    const double normal = motion.normal[0] + motion.normal[1];
+    const int slip = push_.t.dot(motion.w.head<2>()) > 0.0 ? -1 : 1;
+    const int loaded = motion.normal[1] > motion.normal[0] ? 1 : 0;
+    const bool pressed = motion.normal[0] >= 0.0 && motion.normal[1] >= 0.0;
+    if (pressed && normal > 0.0 && both_slip(slip, &motion, 1) > 0) return true;
+    for (const int i : {loaded, 1 - loaded}) {
+      if (push_.approach(i) > 0.0 && point_moves(i, motion)) return true;
+    }
+    return both_slip(slip, &motion, 1) > 0 || both_slip(-slip, &motion, 1) > 0;
+  }
+
+  /// Every motion, without repetition of twists.
+  static constexpr int kMost = 16;
+  int all_motions(std::array<Motion, kMost>& motions) const {
+    int count = 0;
+    const auto keep = [&](const Motion& motion) {
+      for (int k = 0; k < count; ++k) {
+        if ((motions[k].u - motion.u).norm() <= 1e-7 * (1.0 + motion.u.norm())) return;
+      }
+      if (count < kMost) motions[count++] = motion;
+    };
+    Motion motion;
+    if (push_.count == 2) {
+      if (both_stick(motion)) keep(motion);
+      for (const int slip : {1, -1}) {
+        std::array<Motion, 4> slips;
+        const int found = both_slip(slip, slips.data(), 4);
+        for (int k = 0; k < found; ++k) keep(slips[k]);
+      }
+    }
+    for (int i = 0; i < push_.count; ++i) {
+      if (point_sticks(i, motion)) keep(motion);
+      for (const int slip : {1, -1}) {
+        for (const bool enters : {false, true}) {
+          if (point_slips(i, slip, enters, nullptr, motion)) keep(motion);
+        }
+      }
+    }
+    return count;
+  }
+
+ private:
+  bool stuck(Motion& motion) const {
+    if (motion.pivot.index >= 0) body_.choose_pivot_force(push_, motion);
+    return slid(motion);
+  }
+
+  bool slid(Motion& motion) const {
+    motion.w =
+        body_.resistance(motion.u, motion.pivot) - push_.w_g + push_.inertial_force;
+    judge(push_, motion);
+    return motion.residual <= kJudged;
+  }
+
+  const Body& body_;
+  const ScaledPush& push_;
+};
+
+}  // namespace prehensile

@@ -142,6 +142,7 @@ StickTest stick_test(const StickContact& contact, double F, const Vec2& p_OF,
 
 double robust_slack(const StickContact& contact, const Vec2& p_OF, const Vec2& velocity,
                     double omega, const Margin& margin) noexcept {
+  if (velocity.isZero(0.0) && omega == 0.0) return kNan;
   const StickContact weak = weakened(contact, margin);
   const auto slack_at = [&](double c) {
     return slack_of_drag(weak, p_OF, ellipsoid_drag(c, velocity, omega), margin);
@@ -172,6 +173,7 @@ StickTest exact_stick_test(const Model& model, const PushContact& contact, doubl
                            const PlanarPose& X_HO, const Vec2& e, double v, double omega,
                            const Margin& margin) noexcept {
   StickTest test;
+  if (v == 0.0 && omega == 0.0) return test;
   const PlanarGrasp grasp = grasp_at(model, X_HO, contact.g_O);
   if (grasp.count == 0) {
     test.slack = -kInfinity;

@@ -114,10 +114,10 @@ double robust_slack(const StickContact& contact, const Vec2& p_OF, const Vec2& v
 /// One instant with the real pad region at this pose: forces nominal, slack worst over
 /// the box, where the torque radius scales the pad about the finger axis. Also holds for
 /// pads that are not isotropic. The object moves with (v e, omega) relative to the hand;
-/// v == 0 turns it about the finger axis. Slack -infinity where the pads have lost the
-/// face. At a point pusher a moment within 1e-3 F c counts as met: the quadrature of a
-/// disc is isotropic to that order only. A pad point at the centre of rotation, whose
-/// friction has no direction, counts as zero. No heap.
+/// v == 0 turns it about the finger axis; NaN where nothing moves. Slack -infinity where
+/// the pads have lost the face. At a point pusher a moment within 1e-3 F c counts as met:
+/// the quadrature of a disc is isotropic to that order only. A pad point at the centre of
+/// rotation, whose friction has no direction, counts as zero. No heap.
 StickTest exact_stick_test(const Model& model, const PushContact& contact, double place,
                            const PlanarPose& X_HO, const Vec2& e, double v, double omega,
                            const Margin& margin) noexcept;

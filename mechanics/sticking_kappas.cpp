@@ -84,14 +84,14 @@ class Intersection {
  public:
   enum Constraint { kFriction, kEndA, kEndB, kConstraintCount };
 
-  /// `ratio`: kappa of these solutions over kappa of the set.
-  void keep(Constraint constraint, const Solutions& solutions, double ratio = 1.0) {
-    lo_ = std::max(lo_, solutions.lo / ratio);
-    hi_ = std::min(hi_, solutions.hi / ratio);
+  /// `scale`: kappa of the set over kappa of these solutions.
+  void keep(Constraint constraint, const Solutions& solutions, double scale) {
+    lo_ = std::max(lo_, solutions.lo * scale);
+    hi_ = std::min(hi_, solutions.hi * scale);
     if (solutions.gap.lo >= solutions.gap.hi) return;
     Gap& gap = gaps_[constraint];
-    gap.lo = std::min(gap.lo, solutions.gap.lo / ratio);
-    gap.hi = std::max(gap.hi, solutions.gap.hi / ratio);
+    gap.lo = std::min(gap.lo, solutions.gap.lo * scale);
+    gap.hi = std::max(gap.hi, solutions.gap.hi * scale);
     has_gaps_ = true;
   }
 
@@ -149,8 +149,9 @@ void keep_cone(const StickContact& contact, const Vec2& e, const Margin& margin,
   const double gamma_t = contact.gamma.dot(contact.t);
   const auto keep_row = [&](double A, double B) {
     const Solutions solutions = friction_solutions(A, force.worst(B));
-    kept.keep(Intersection::kFriction, solutions, radius.hi);
-    if (radius.lo < radius.hi) kept.keep(Intersection::kFriction, solutions, radius.lo);
+    kept.keep(Intersection::kFriction, solutions, 1.0 / radius.hi);
+    if (radius.lo == radius.hi) return;
+    kept.keep(Intersection::kFriction, solutions, 1.0 / radius.lo);
   };
   keep_row(mu * e_n - e_t, mu * gamma_n - gamma_t);
   keep_row(mu * e_n + e_t, mu * gamma_n + gamma_t);
@@ -167,11 +168,11 @@ void keep_cone(const StickContact& contact, const Vec2& e, const Margin& margin,
 /// sigma_hi joins in.
 template <class Keep>
 void keep_end(double c, double A, double B, const Factors& radius, Keep&& keep) {
-  keep(end_solutions(c * radius.hi, A, B), radius.hi);
+  keep(end_solutions(c * radius.hi, A, B), 1.0 / radius.hi);
   if (radius.lo == radius.hi) return;
-  keep(end_solutions(c * radius.lo, A, B), radius.lo);
+  keep(end_solutions(c * radius.lo, A, B), 1.0 / radius.lo);
   if (B <= 2.0 * c * radius.lo || A <= 0.0) return;
-  keep(end_solutions(c * radius.lo * radius.lo / radius.hi, A, B), radius.hi);
+  keep(end_solutions(c * radius.lo * radius.lo / radius.hi, A, B), 1.0 / radius.hi);
 }
 
 /// Both face ends over the box. The moments are affine in m/F, in the place of the pusher
@@ -188,12 +189,12 @@ void keep_ends(const StickContact& contact, const Vec2& p_OF, const Vec2& e,
   const double B_a = shift - cross(contact.p_OCom - a, contact.gamma);
   const double B_b = shift + cross(contact.p_OCom - b, contact.gamma);
   keep_end(contact.c, -A_a, force.worst(B_a), radius,
-           [&](const Solutions& solutions, double ratio) {
-             kept.keep(Intersection::kEndA, mirrored(solutions), ratio);
+           [&](const Solutions& solutions, double scale) {
+             kept.keep(Intersection::kEndA, mirrored(solutions), scale);
            });
   keep_end(contact.c, A_b, force.worst(B_b), radius,
-           [&](const Solutions& solutions, double ratio) {
-             kept.keep(Intersection::kEndB, solutions, ratio);
+           [&](const Solutions& solutions, double scale) {
+             kept.keep(Intersection::kEndB, solutions, scale);
            });
 }
 

@@ -100,9 +100,9 @@ bool is_isotropic_along(const SearchModel& search, const FlatState& from,
                         const FlatState& to) {
   if (search.exact_everywhere) return true;
   const Model& model = *search.model;
-  if (!model.region.is_isotropic()) return false;
-  const double radius = std::get<DiscPad>(model.scene.gripper.pad).radius;
-  return distance_to_border(model.outline, from.p_OF, to.p_OF) >= radius;
+  const auto* disc = std::get_if<DiscPad>(&model.scene.gripper.pad);
+  if (!model.region.is_isotropic() || !disc) return false;
+  return distance_to_border(model.outline, from.p_OF, to.p_OF) >= disc->radius;
 }
 
 /// How many points of a move are looked at.
@@ -154,8 +154,9 @@ SearchModel prepare_search(const Model& model, const Margin& margin) {
 }
 
 PlanarPose pose_along(const FlatState& from, const FlatState& to, double s) noexcept {
-  const Vec2 p_OF = from.p_OF + s * (to.p_OF - from.p_OF);
-  return pose_from_finger(p_OF, from.theta + s * (to.theta - from.theta));
+  const Vec2 p_OF(std::lerp(from.p_OF.x(), to.p_OF.x(), s),
+                  std::lerp(from.p_OF.y(), to.p_OF.y(), s));
+  return pose_from_finger(p_OF, std::lerp(from.theta, to.theta, s));
 }
 
 LinearPush push_of(const SearchModel& search, const Move& move) noexcept {

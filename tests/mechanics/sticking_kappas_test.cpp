@@ -127,7 +127,8 @@ TEST(StickingKappas, CanHaveFourIntervals) {
   const Vec2 e(std::sqrt(0.75), -0.5);
   const KappaSet set = sticking_kappas(contact, Vec2::Zero(), e);
   ASSERT_EQ(set.count, 4);
-  for (double kappa = -20.0; kappa < 20.0; kappa += 0.0137) {
+  for (int i = -1500; i < 1500; ++i) {
+    const double kappa = 0.0137 * i;
     EXPECT_EQ(set.contains(kappa),
               slack_by_corner_forces(contact, Vec2::Zero(), e, kappa) >= 0.0)
         << kappa;

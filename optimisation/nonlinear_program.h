@@ -16,6 +16,7 @@ namespace prehensile {
 
 inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
+/// Its functions must not throw: they are called from within C and Fortran frames.
 struct NonlinearProgram {
   std::vector<double> start;  ///< x at the start; its size is the number of variables
   std::vector<double> lower, upper;  ///< bounds of x; empty or one per variable
@@ -40,9 +41,11 @@ struct NonlinearProgram {
 };
 
 enum class NlpStatus {
-  kConverged,  ///< the library says so; x must still be judged by its residual
+  kConverged,  ///< the library says so, or stops at the precision of the machine; x must
+               ///< still be judged by its residual
   kLimit,      ///< evaluation or iteration limit; x is the last iterate
-  kFailed,     ///< x is the last iterate; message says why
+  kFailed,     ///< x is the last iterate, or the start if the library was not asked;
+               ///< message says why
   kNotBuilt,   ///< the library was switched off at build time
 };
 

@@ -33,14 +33,15 @@ enum class TransitionStatus {
 std::string_view name(TransitionStatus status);
 
 enum class EventKind {
-  kStick,
-  kSlip,
-  kCorner,
-  kPusherOffFace,
+  kStick,          ///< the contact stops slipping
+  kSlip,           ///< the contact begins to slip
+  kCorner,         ///< one end of a flush line lifts
+  kFlush,          ///< a tipped line lies on the face again
+  kPusherOffFace,  ///< ends the push, like all that follow
   kPadOffFace,
   kContactLost,
   kGravityLost,
-  kGuard
+  kGuard,
 };
 std::string_view name(EventKind kind);
 

@@ -1,0 +1,77 @@
+/// One step of the Dormand-Prince pair of order 5(4) with its continuous extension of
+/// order 4, for two coordinates.
+///
+/// Source: Dormand and Prince, J. Comput. Appl. Math. 6 (1980) 19-26; continuous
+/// extension as in Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I,
+/// II.6.
+#pragma once
+
+#include <array>
+
+#include "scene/frames.h"
+
+namespace prehensile {
+
+struct DormandPrinceStep {
+  double s = 0.0;             ///< where it starts
+  double h = 0.0;             ///< its length
+  Vec2 y, y_end;              ///< state at both ends
+  Vec2 rate, rate_end;        ///< rate at both ends; rate_end starts the next step
+  Vec2 error;                 ///< order 5 less order 4 at the end
+  double stiffness = 0.0;     ///< estimate of |d rate / dy| in the direction of `error`
+  std::array<Vec2, 3> dense;  ///< coefficients of the continuous extension
+
+  /// State at the share x in [0, 1] of the step.
+  Vec2 at(double x) const {
+    const double z = 1.0 - x;
+    return y + x * (y_end - y + z * (dense[0] + x * (dense[1] + z * dense[2])));
+  }
+
+  /// Rate of the continuous extension in the middle of the step.
+  Vec2 middle_rate() const { return (y_end - y + 0.25 * dense[1]) / h; }
+};
+
+/// Fills `step` from step.s, step.h, step.y and step.rate. `rate(s, y, out)` returns
+/// false where there is none; then the step is not valid and the result is that s,
+/// otherwise infinity. The last call of `rate` is the one at the end of the step.
+template <class Rate>
+double dormand_prince(const Rate& rate, DormandPrinceStep& step) {
+  const double s = step.s;
+  const double h = step.h;
+  const Vec2& y = step.y;
+  const Vec2& k1 = step.rate;
+  Vec2 k2, k3, k4, k5, k6, k7;
+  const auto no_rate = [&](double c, const Vec2& slope, Vec2& k) {
+    return !rate(s + c * h, Vec2(y + h * slope), k);
+  };
+  if (no_rate(1.0 / 5, k1 / 5, k2)) return s + h / 5;
+  if (no_rate(3.0 / 10, 3.0 / 40 * k1 + 9.0 / 40 * k2, k3)) return s + 3 * h / 10;
+  if (no_rate(4.0 / 5, 44.0 / 45 * k1 - 56.0 / 15 * k2 + 32.0 / 9 * k3, k4)) {
+    return s + 4 * h / 5;
+  }
+  const Vec2 slope5 =
+      19372.0 / 6561 * k1 - 25360.0 / 2187 * k2 + 64448.0 / 6561 * k3 - 212.0 / 729 * k4;
+  if (no_rate(8.0 / 9, slope5, k5)) return s + 8 * h / 9;
+  const Vec2 slope6 = 9017.0 / 3168 * k1 - 355.0 / 33 * k2 + 46732.0 / 5247 * k3 +
+                      49.0 / 176 * k4 - 5103.0 / 18656 * k5;
+  if (no_rate(1.0, slope6, k6)) return s + h;
+  const Vec2 slope7 = 35.0 / 384 * k1 + 500.0 / 1113 * k3 + 125.0 / 192 * k4 -
+                      2187.0 / 6784 * k5 + 11.0 / 84 * k6;
+  if (no_rate(1.0, slope7, k7)) return s + h;
+
+  step.y_end = y + h * slope7;
+  step.rate_end = k7;
+  step.error = h * (71.0 / 57600 * k1 - 71.0 / 16695 * k3 + 71.0 / 1920 * k4 -
+                    17253.0 / 339200 * k5 + 22.0 / 525 * k6 - 1.0 / 40 * k7);
+  const double apart = h * (slope7 - slope6).norm();
+  step.stiffness = apart > 0.0 ? (k7 - k6).norm() / apart : 0.0;
+  step.dense[0] = h * k1 - h * slope7;
+  step.dense[1] = h * slope7 - h * k7 - step.dense[0];
+  step.dense[2] =
+      h * (-12715105075.0 / 11282082432 * k1 + 87487479700.0 / 32700410799 * k3 -
+           10690763975.0 / 1880347072 * k4 + 701980252875.0 / 199316789632 * k5 -
+           1453857185.0 / 822651844 * k6 + 69997945.0 / 29380423 * k7);
+  return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace prehensile

@@ -1,0 +1,414 @@
+#include "primitives/linear_push.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "primitives/dormand_prince.h"
+#include "primitives/path_limits.h"
+#include "primitives/push_instant.h"
+#include "primitives/root.h"
+
+namespace prehensile {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+/// Length below which a limit does not count as crossed [m].
+constexpr double kRoundOff = 1e-12;
+
+/// A ride with a constant wrench is judged by its two ends only if the contact mode holds
+/// at both with this margin, which exceeds what the quadrature of a disc changes as it
+/// turns.
+constexpr double kLeapMargin = 0.02;
+
+/// Share of the tolerance that the location of an event may cost.
+constexpr double kLocationShare = 0.1;
+
+/// Least share of the tolerance that a step may spend.
+constexpr double kLeastShare = 0.05;
+
+/// Weight of an angle for pads that cannot exert a torque, over the size of the object.
+constexpr double kLeastReach = 0.01;
+
+constexpr Obstacle kGravityLost{TransitionStatus::kFalls, EventKind::kGravityLost,
+                                "the grasp alone does not hold gravity"};
+
+/// The first change within a step: where, as a share of the step, and which limit; none:
+/// a change of contact mode.
+struct Crossing {
+  double at = kNever;
+  std::optional<Limit> limit;
+};
+
+double solver_tolerance(double tolerance, double speed) {
+  return std::clamp(1e-3 * tolerance / speed, 1e-12, 1e-9);
+}
+
+double speed_of(const Model& model, const LinearPush& push) {
+  return push.travel + std::abs(push.turn) * 0.5 * model.L;
+}
+
+class PushRun {
+ public:
+  PushRun(const Model& model, const Grasp& start, const LinearPush& push,
+          const Guard& guard, const TransitionOptions& options,
+          std::vector<Sample>* trace)
+      : model_(model),
+        push_(push),
+        options_(options),
+        psi_(start.psi),
+        traced_(trace != nullptr),
+        solver_tolerance_(solver_tolerance(options.tolerance, speed_of(model, push))),
+        reach_(std::max(model.c, kLeastReach * model.L)),
+        instant_(model, push, start, solver_tolerance_),
+        limits_(model, start, guard, reach_),
+        record_(options.certificate_tolerance, trace),
+        location_(std::clamp(kLocationShare * options.tolerance / instant_.speed(), 1e-12,
+                             1e-3)),
+        natural_step_(2.0 * options.max_step) {}
+
+  Transition run() {
+    begin();
+    while (!record_.stopped() && s_ < 1.0) advance();
+    const Grasp end{instant_.pose(seat_, s_, q_), psi_};
+    return record_.finish(end, s_, error_, instant_.count());
+  }
+
+ private:
+  void begin();
+  void advance();
+
+  double choose_step();
+  bool attempt();
+  bool middle_agrees();
+  bool error_is_accepted();
+  double length_of(const Vec2& error) const;
+  void block(double at);
+  void accept();
+
+  Crossing first_crossing();
+  PathLimits::Values limits(double s, const Vec2& q) const;
+  double mode_margin() const { return instant_.margin(seat_, regime_).least(); }
+  double mode_noise() const { return 100.0 * solver_tolerance_; }
+
+  void pass(const Crossing& crossing);
+  void change_mode();
+  void take_seat(const Seat& seat, EventKind event);
+  void take_regime(Regime regime);
+  bool solve_here();
+  void stop(const Obstacle& obstacle);
+  bool rides() const {
+    return seat_.kind == SeatKind::kFlush && regime_ == Regime::kStick;
+  }
+  bool can_leap() const;
+
+  const Model& model_;
+  const LinearPush push_;
+  const TransitionOptions options_;
+  const double psi_;
+  const bool traced_;
+  const double solver_tolerance_;
+  const double reach_;  ///< [m] weight of an angle
+
+  PushInstant instant_;
+  PathLimits limits_;
+  PushRecord record_;
+  const double location_;  ///< share of the push within which events are located
+
+  Seat seat_;
+  Regime regime_ = Regime::kStick;
+  double s_ = 0.0;
+  Vec2 q_ = Vec2::Zero();
+  Vec2 rate_ = Vec2::Zero();
+  double margin_ = 0.0;  ///< of the contact mode at s_
+  double error_ = 0.0;   ///< [m] estimate for the pose at s_
+
+  DormandPrinceStep step_;
+  Vec2 defect_ = Vec2::Zero();  ///< of the step's middle
+  double step_error_ = 0.0;     ///< [m]
+  Obstacle obstacle_;
+  double natural_step_;      ///< that error control asks for
+  double landing_ = kNever;  ///< step that ends at an event
+  double blocked_ = kNever;  ///< share at which no motion was found
+  bool leaping_ = false;
+  bool leaps_allowed_ = true;
+  bool whole_ = true;  ///< the pad does not overhang
+  int attempts_ = 0;
+};
+
+void PushRun::begin() {
+  seat_ = instant_.geometry().first();
+  whole_ = model_.region.is_whole(instant_.pose(seat_, s_, q_));
+  if (!solve_here()) return;
+  if (!instant_.gravity_is_held()) return record_.stop(kGravityLost, s_);
+  const ModeMargin margin = instant_.margin(seat_, Regime::kStick);
+  for (const int lifted : {0, 1}) {
+    if (margin.pressed[lifted] >= -mode_noise()) continue;
+    take_seat(instant_.geometry().tipped(seat_, q_[0], 1 - lifted), EventKind::kCorner);
+    break;
+  }
+  if (record_.stopped()) return;
+  regime_ = instant_.regime();
+  margin_ = mode_margin();
+  record_.add(instant_.sample(s_, psi_));
+}
+
+/// One attempt at a step: it is refused, shortened to land on an event, or taken.
+void PushRun::advance() {
+  if (++attempts_ > options_.max_steps) {
+    return record_.stop(
+        {TransitionStatus::kIterationLimit, {}, "the step limit was reached"}, s_);
+  }
+  step_.s = s_;
+  step_.y = q_;
+  step_.rate = rate_;
+  step_.h = choose_step();
+  if (!attempt()) return;
+
+  const Crossing crossing = first_crossing();
+  const bool crosses = crossing.at <= 1.0;
+  if (crosses && leaping_) {
+    leaps_allowed_ = false;
+    return;
+  }
+  const double before = crosses ? crossing.at * step_.h : kNever;
+  if (before <= location_) return pass(crossing);
+  if (crosses && crossing.limit) {
+    landing_ = before - 0.5 * location_;  // ends on the valid side
+    return;
+  }
+  if (crosses && before < step_.h - location_) {
+    landing_ = std::min(before + 0.5 * location_, 0.999 * step_.h);
+    return;
+  }
+  accept();
+  if (crosses && !record_.stopped()) pass(crossing);
+}
+
+double PushRun::choose_step() {
+  const double left = 1.0 - s_;
+  leaping_ = rides() && can_leap();
+  if (leaping_) return left;
+  double h = std::min(rides() ? options_.max_step : natural_step_, landing_);
+  landing_ = kNever;
+  if (blocked_ != kNever) {
+    const double free = blocked_ - s_;
+    // Right before the obstacle: look whether it is still there.
+    h = free <= location_ ? free + location_ : std::min(h, 0.5 * free);
+  }
+  return h >= left * (1.0 - 1e-12) ? left : h;
+}
+
+/// Between two whole ends of a ride nothing can happen if the wrench is constant: the
+/// finger axis runs straight, so friction and gravity keep their moments about the face.
+bool PushRun::can_leap() const {
+  if (!leaps_allowed_ || traced_ || margin_ < kLeapMargin) return false;
+  if (push_.turn != 0.0 && !model_.region.is_isotropic()) return false;
+  const int checks = static_cast<int>(std::ceil((1.0 - s_) / options_.max_step));
+  for (int i = 0; i <= checks; ++i) {
+    const double s = s_ + (1.0 - s_) * i / checks;
+    const PlanarPose X_HO = instant_.pose(seat_, s, q_);
+    if (!model_.region.is_whole(X_HO)) return false;
+    if (depth_inside(model_.outline, finger_in_object(X_HO)) < 0.0) return false;
+  }
+  return true;
+}
+
+/// Computes the step and its end; false if there is no motion or the error is too large.
+bool PushRun::attempt() {
+  const auto rate = [this](double s, const Vec2& q, Vec2& out) {
+    obstacle_ = instant_.solve(seat_, s, q);
+    if (obstacle_) return false;
+    out = instant_.rate();
+    return true;
+  };
+  double failed_at = kNever;
+  if (rides()) {
+    step_.y_end = q_;
+    step_.error.setZero();
+    step_.dense.fill(Vec2::Zero());
+    step_.stiffness = 0.0;
+    if (!rate(s_ + step_.h, q_, step_.rate_end)) failed_at = s_ + step_.h;
+  } else {
+    failed_at = dormand_prince(rate, step_);
+  }
+  if (failed_at == kNever && !instant_.gravity_is_held()) {
+    obstacle_ = kGravityLost;
+    failed_at = s_ + step_.h;
+  }
+  if (failed_at != kNever) {
+    block(failed_at);
+    return false;
+  }
+  return rides() || (middle_agrees() && error_is_accepted());
+}
+
+/// Looks into the middle of the step, where the stages may have missed a kink or jump of
+/// the rate: its defect joins the error, and a contact mode that is left there and holds
+/// again at the end calls for a shorter step.
+bool PushRun::middle_agrees() {
+  instant_.set_aside();
+  const double middle = s_ + 0.5 * step_.h;
+  obstacle_ = instant_.solve(seat_, middle, step_.at(0.5));
+  if (obstacle_) {
+    instant_.bring_back();
+    block(middle);
+    return false;
+  }
+  defect_ = step_.h * (instant_.rate() - step_.middle_rate());
+  const bool left = mode_margin() < -mode_noise();
+  instant_.bring_back();
+  if (!left || mode_margin() < -mode_noise() || step_.h <= location_) return true;
+  landing_ = 0.5 * step_.h;
+  return false;
+}
+
+/// A step may spend its share of the tolerance, so that all errors add up to it. Very
+/// short steps, as a kink or a jump of the rate enforces them, are rare and may spend
+/// more.
+bool PushRun::error_is_accepted() {
+  step_error_ = std::max(length_of(step_.error), length_of(defect_));
+  const double allowed = options_.tolerance * std::max(step_.h, kLeastShare);
+  const double factor = 0.9 * std::pow(allowed / std::max(step_error_, 1e-300), 0.25);
+  const bool accepted = step_error_ <= allowed || step_.h <= location_;
+  if (!accepted || step_.h >= 0.999 * natural_step_) {
+    natural_step_ = std::clamp(step_.h * std::clamp(factor, 0.2, 4.0), 0.5 * location_,
+                               2.0 * options_.max_step);
+  }
+  return accepted;
+}
+
+/// What an error of the coordinates at the end of the step makes of the pose [m].
+double PushRun::length_of(const Vec2& error) const {
+  const PlanarPose one = instant_.geometry().object(seat_, step_.y_end);
+  const PlanarPose other = instant_.geometry().object(seat_, step_.y_end - error);
+  return Vec3(one.x - other.x, one.y - other.y, reach_ * error[1]).norm();
+}
+
+/// There is no motion at `at`: close in on it by halves, and stop before it.
+void PushRun::block(double at) {
+  if (leaping_) {
+    leaps_allowed_ = false;
+  } else if (at - s_ <= 2.0 * location_) {
+    stop(obstacle_);
+  } else {
+    blocked_ = at;
+  }
+}
+
+void PushRun::accept() {
+  const double growth = std::exp(std::min(step_.stiffness * step_.h, 3.0));
+  const double noise = rides() ? 0.0 : mode_noise() * instant_.speed() * step_.h;
+  error_ = error_ * growth + (rides() ? 0.0 : step_error_) + noise;
+  record_.add_slip(std::abs(step_.y_end[0] - q_[0]));
+  s_ = step_.h == 1.0 - s_ ? 1.0 : s_ + step_.h;
+  q_ = step_.y_end;
+  rate_ = instant_.rate();
+  margin_ = mode_margin();
+  if (s_ >= blocked_) blocked_ = kNever;
+  record_.add(instant_.sample(s_, psi_));
+}
+
+Crossing PushRun::first_crossing() {
+  Crossing first;
+  const PathLimits::Values at_start = limits(s_, q_);
+  const PathLimits::Values at_end = limits(s_ + step_.h, step_.y_end);
+  const double resolution = 0.1 * location_ / step_.h;
+  for (int i = 0; i < PathLimits::kCount; ++i) {
+    if (at_end[i] >= -kRoundOff) continue;
+    const auto limit = [&](double x) { return limits(s_ + x * step_.h, step_.at(x))[i]; };
+    const double at = at_start[i] <= 0.0 ? 0.0
+                                         : falling_root(limit, 0.0, at_start[i], 1.0,
+                                                        at_end[i], resolution);
+    if (at < first.at) first = {at, static_cast<Limit>(i)};
+  }
+  const double margin_at_end = mode_margin();
+  if (margin_at_end >= -mode_noise()) return first;
+  const auto margin = [&](double x) {
+    // Where no motion exists the mode has certainly changed.
+    const bool solved = !instant_.solve(seat_, s_ + x * step_.h, step_.at(x));
+    return solved ? mode_margin() : -1.0;
+  };
+  instant_.set_aside();
+  const double at =
+      margin_ <= 0.0 ? 0.0
+                     : falling_root(margin, 0.0, margin_, 1.0, margin_at_end, resolution);
+  instant_.bring_back();
+  if (at < first.at) first = {at, {}};
+  return first;
+}
+
+PathLimits::Values PushRun::limits(double s, const Vec2& q) const {
+  return limits_.at(instant_.geometry(), seat_, q, instant_.pose(seat_, s, q), whole_);
+}
+
+void PushRun::pass(const Crossing& crossing) {
+  // The last instant may be that at the end of a step that was not taken.
+  if (!solve_here()) return;
+  if (!crossing.limit) return change_mode();
+  if (*crossing.limit == Limit::kFlush) {
+    take_seat(instant_.geometry().flush(seat_, q_[0]), EventKind::kFlush);
+  } else if (*crossing.limit == Limit::kWholePad) {
+    whole_ = !whole_;
+  } else {
+    stop(limits_.obstacle(*crossing.limit, seat_));
+  }
+}
+
+/// Leaves the contact mode whose margin is used up.
+void PushRun::change_mode() {
+  const ModeMargin margin = instant_.margin(seat_, regime_);
+  for (const int lifted : {0, 1}) {
+    if (margin.pressed[lifted] > margin.least()) continue;
+    return take_seat(instant_.geometry().tipped(seat_, q_[0], 1 - lifted),
+                     EventKind::kCorner);
+  }
+  if (regime_ == Regime::kStick) return take_regime(instant_.slip_side());
+  const Regime opposite =
+      regime_ == Regime::kSlipPlus ? Regime::kSlipMinus : Regime::kSlipPlus;
+  const bool frictionless = model_.contacts[push_.contact].mu == 0.0;
+  take_regime(frictionless ? opposite : Regime::kStick);
+}
+
+void PushRun::take_regime(Regime regime) {
+  regime_ = regime;
+  margin_ = mode_margin();
+  record_.add(regime == Regime::kStick ? EventKind::kStick : EventKind::kSlip, s_);
+}
+
+void PushRun::take_seat(const Seat& seat, EventKind event) {
+  seat_ = seat;
+  q_ = Vec2::Zero();
+  record_.add(event, s_);
+  if (!solve_here()) return;
+  regime_ = instant_.regime();
+  margin_ = mode_margin();
+}
+
+/// Stops where a motion ends, known within the location of events.
+void PushRun::stop(const Obstacle& obstacle) {
+  error_ += 2.0 * location_ * instant_.speed();
+  record_.stop(obstacle, s_);
+}
+
+/// Solves the instant at the present state; stops the push if there is no motion.
+bool PushRun::solve_here() {
+  const Obstacle obstacle = instant_.solve(seat_, s_, q_);
+  if (obstacle) {
+    record_.stop(obstacle, s_);
+    return false;
+  }
+  rate_ = instant_.rate();
+  return true;
+}
+
+}  // namespace
+
+Transition follow(const Model& model, const Grasp& start, const LinearPush& push,
+                  const Guard& guard, const TransitionOptions& options,
+                  std::vector<Sample>* trace) noexcept {
+  return PushRun(model, start, push, guard, options, trace).run();
+}
+
+}  // namespace prehensile

@@ -1,0 +1,186 @@
+#include "primitives/push_instant.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace prehensile {
+namespace {
+
+/// Friction forces at the fingers that balance gravity can be written down if gravity is
+/// small: each point takes its share a of the force and b of the torque, |a| + |b| <= 1.
+bool obviously_held(const PlanarGrasp& grasp) {
+  Vec2 perpendicular = Vec2::Zero();
+  Vec2 first_moment = Vec2::Zero();
+  double total = 0.0;
+  double torque = 0.0;
+  for (int j = 0; j < grasp.count; ++j) {
+    const double r = std::sqrt(grasp.x[j] * grasp.x[j] + grasp.y[j] * grasp.y[j]);
+    const double B = grasp.bound[j];
+    total += B;
+    torque += B * r;
+    first_moment += B * Vec2(grasp.x[j], grasp.y[j]);
+    if (r > 0.0) perpendicular += B / r * Vec2(-grasp.y[j], grasp.x[j]);
+  }
+  // total a + perpendicular b = -f,  first_moment x a + torque b = -m
+  const Vec2 f = -grasp.w_g.head<2>();
+  const double m = -grasp.w_g[2];
+  const double det = torque - cross(first_moment, perpendicular) / total;
+  if (m == 0.0 && first_moment.isZero()) return f.norm() <= total;
+  if (!(det > 0.0)) return false;
+  const double b = (m - cross(first_moment, f) / total) / det;
+  const Vec2 a = (f - b * perpendicular) / total;
+  return a.norm() + std::abs(b) <= 1.0;
+}
+
+Obstacle obstacle_of(InstantStatus status, bool gravity_held) {
+  using enum TransitionStatus;
+  switch (status) {
+    case InstantStatus::kMoves:
+    case InstantStatus::kHolds:
+    case InstantStatus::kNonuniqueForces:
+      return {};
+    case InstantStatus::kSeparated:
+      return {kPusherLost, EventKind::kContactLost, "the pusher leaves the object"};
+    case InstantStatus::kDynamic:
+      return {kFalls, EventKind::kGravityLost, "nothing balances gravity"};
+    case InstantStatus::kAmbiguous:
+      if (gravity_held) return {kAmbiguous, {}, "two motions are possible"};
+      return {kFalls, EventKind::kGravityLost, "the grasp alone does not hold gravity"};
+    case InstantStatus::kJammed:
+      return {kJammed, {}, "no motion is possible"};
+    case InstantStatus::kNotRun:
+    case InstantStatus::kOutOfIterations:
+    case InstantStatus::kBadInput:
+      break;
+  }
+  return {kIterationLimit, {}, "an instant was not solved"};
+}
+
+}  // namespace
+
+PushInstant::PushInstant(const Model& model, const LinearPush& push, const Grasp& start,
+                         double solver_tolerance)
+    : model_(&model),
+      contact_(&model.contacts[push.contact]),
+      push_(push),
+      X_HO_start_(start.X_HO),
+      geometry_(model, *contact_, push.place),
+      speed_(push.travel + std::abs(push.turn) * 0.5 * model.L),
+      force_(model.F + model.mass * contact_->g_O.norm()) {
+  options_.tolerance = solver_tolerance;
+}
+
+PlanarPose PushInstant::pose(const Seat& seat, double s, const Vec2& q) const {
+  return compose(pusher_pose(push_, X_HO_start_, s), geometry_.object(seat, q));
+}
+
+Obstacle PushInstant::solve(const Seat& seat, double s, const Vec2& q) noexcept {
+  Answer& now = answers_[now_];
+  const PlanarPose X_HP = pusher_pose(push_, X_HO_start_, s);
+  const PlanarPose X_PO = geometry_.object(seat, q);
+  now.X_HO = compose(X_HP, X_PO);
+  // The pusher stands still in the world, so gravity is constant in P.
+  now.grasp = grasp_at(*model_, now.X_HO, rotated(-X_PO.theta, contact_->g_O));
+  if (now.grasp.count == 0) {
+    return {TransitionStatus::kPadLost, EventKind::kPadOffFace, "the pads left the face"};
+  }
+  const SeatGeometry::Touch touch = geometry_.touch(seat, q);
+  now.drive.count = touch.count;
+  now.drive.p_HC = {transform(X_HP, touch.p_P[0]), transform(X_HP, touch.p_P[1])};
+  now.drive.n_H = rotated(X_HP.theta, touch.n_P);
+  now.drive.mu = contact_->mu;
+  now.drive.V_HP = pusher_twist(push_, X_HO_start_, s);
+
+  ++count_;
+  now.instant = solve_planar(now.grasp, now.drive, options_, &warm_);
+  const InstantStatus status = now.instant.status;
+  const Obstacle obstacle =
+      obstacle_of(status, status != InstantStatus::kAmbiguous || gravity_is_held());
+  if (obstacle) {
+    warm_.valid = false;
+  } else {
+    read(seat, now);
+  }
+  return obstacle;
+}
+
+void PushInstant::read(const Seat& seat, Answer& answer) const noexcept {
+  const PlanarDrive& drive = answer.drive;
+  const PlanarTwist V_PO = answer.instant.V_HO - drive.V_HP;
+  answer.normal_force = 0.0;
+  answer.tangential_force = 0.0;
+  answer.slip = 0.0;
+  for (int k = 0; k < drive.count; ++k) {
+    const Vec2 c = point_velocity(V_PO, drive.p_HC[k]);
+    answer.lift[k] = c.dot(drive.n_H);
+    answer.slip += c.dot(drive.t_H()) / drive.count;
+    answer.normal_force += answer.instant.pusher[k].normal_force;
+    answer.tangential_force += answer.instant.pusher[k].tangential_force;
+  }
+  answer.tilt_rate = seat.kind == SeatKind::kFlush ? 0.0 : V_PO[2];
+}
+
+bool PushInstant::gravity_is_held() const noexcept {
+  return obviously_held(answer().grasp) || gravity_slack(answer().grasp) > 0.0;
+}
+
+double PushInstant::friction_left(const Answer& answer) const {
+  return (contact_->mu * answer.normal_force - std::abs(answer.tangential_force)) /
+         force_;
+}
+
+ModeMargin PushInstant::margin(const Seat& seat, Regime regime) const {
+  const Answer& now = answer();
+  ModeMargin margin;
+  margin.pressed.fill(std::numeric_limits<double>::infinity());
+  if (seat.kind == SeatKind::kFlush) {
+    for (int k = 0; k < 2; ++k) {
+      margin.pressed[k] =
+          now.instant.pusher[k].normal_force / force_ - now.lift[k] / speed_;
+    }
+  }
+  const double slip = now.slip / speed_;
+  switch (regime) {
+    case Regime::kStick:
+      margin.regime = friction_left(now) - std::abs(slip);
+      break;
+    case Regime::kSlipPlus:
+      margin.regime = slip - friction_left(now);
+      break;
+    case Regime::kSlipMinus:
+      margin.regime = -slip - friction_left(now);
+      break;
+  }
+  return margin;
+}
+
+Regime PushInstant::regime() const {
+  const double slip = std::abs(answer().slip) / speed_;
+  return friction_left(answer()) >= slip ? Regime::kStick : slip_side();
+}
+
+/// Friction on the object opposes its slip; at the onset only the friction can tell, and
+/// without friction only the slip.
+Regime PushInstant::slip_side() const {
+  const double slip = answer().slip;
+  const double friction = answer().tangential_force;
+  const bool slips = std::abs(slip) / speed_ > std::abs(friction) / force_;
+  const double sign = slips ? slip : -friction;
+  return sign > 0.0 ? Regime::kSlipPlus : Regime::kSlipMinus;
+}
+
+Sample PushInstant::sample(double s, double psi) const {
+  const Answer& now = answer();
+  Sample sample;
+  sample.s = s;
+  sample.grasp = {now.X_HO, psi};
+  sample.push_force = now.instant.push_force;
+  sample.normal_force = now.normal_force;
+  sample.tangential_force = now.tangential_force;
+  sample.slip_rate = now.slip;
+  sample.status = now.instant.status;
+  sample.certificate = certify(now.grasp, now.drive, now.instant).worst;
+  return sample;
+}
+
+}  // namespace prehensile

@@ -1,0 +1,86 @@
+/// The instants of one push: builds the question at a point of the path, has it answered,
+/// and reads the answer in the terms of the push: rates of its coordinates, distance to
+/// the next change of contact mode, reasons to stop.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "primitives/push_record.h"
+#include "primitives/seat.h"
+
+namespace prehensile {
+
+/// What the contact does along the pusher.
+enum class Regime { kStick, kSlipPlus, kSlipMinus };
+
+/// How firmly each part of the present contact mode holds, dimensionless: positive while
+/// it holds, through zero where it changes.
+struct ModeMargin {
+  std::array<double, 2> pressed;  ///< load against lift of each end of a flush line
+  double regime = 0.0;            ///< friction left against slip, or the reverse
+
+  double least() const { return std::min({pressed[0], pressed[1], regime}); }
+};
+
+class PushInstant {
+ public:
+  PushInstant(const Model& model, const LinearPush& push, const Grasp& start,
+              double solver_tolerance);
+
+  /// Solves the instant at the share s of the push with the object at q in the seat.
+  Obstacle solve(const Seat& seat, double s, const Vec2& q) noexcept;
+
+  /// The grasp alone can bear gravity here. Without that the answer may not be unique
+  /// and the object would fall when the pusher leaves.
+  bool gravity_is_held() const noexcept;
+
+  /// Keeps the last answer while others are sought, and brings it back.
+  void set_aside() { now_ = 1 - now_; }
+  void bring_back() { now_ = 1 - now_; }
+
+  /// Of the last answer.
+  Vec2 rate() const { return {answer().slip, answer().tilt_rate}; }
+  ModeMargin margin(const Seat& seat, Regime regime) const;
+  Regime slip_side() const;
+  Regime regime() const;
+  Sample sample(double s, double psi) const;
+
+  const SeatGeometry& geometry() const { return geometry_; }
+  PlanarPose pose(const Seat& seat, double s, const Vec2& q) const;
+  double speed() const { return speed_; }
+  int count() const { return count_; }
+
+ private:
+  /// A question, its answer, and what it means for the push.
+  struct Answer {
+    PlanarPose X_HO;
+    PlanarGrasp grasp;
+    PlanarDrive drive;
+    PlanarInstant instant;
+    double slip = 0.0;       ///< [m] per unit of s, of the object along the pusher
+    double tilt_rate = 0.0;  ///< [rad] per unit of s
+    std::array<double, 2> lift{0.0, 0.0};  ///< [m] per unit of s
+    double normal_force = 0.0;             ///< [N]
+    double tangential_force = 0.0;         ///< [N]
+  };
+  const Answer& answer() const { return answers_[now_]; }
+  double friction_left(const Answer& answer) const;
+  void read(const Seat& seat, Answer& answer) const noexcept;
+
+  const Model* model_;
+  const PushContact* contact_;
+  LinearPush push_;
+  PlanarPose X_HO_start_;
+  SeatGeometry geometry_;
+  PlanarSolveOptions options_;
+  double speed_;  ///< [m] per unit of s: unit of rates
+  double force_;  ///< [N] unit of forces
+
+  std::array<Answer, 2> answers_;
+  int now_ = 0;
+  PlanarWarmStart warm_;
+  int count_ = 0;
+};
+
+}  // namespace prehensile

@@ -1,0 +1,50 @@
+#include "primitives/push_record.h"
+
+#include <cmath>
+
+namespace prehensile {
+
+PushRecord::PushRecord(double certificate_tolerance, std::vector<Sample>* trace)
+    : certificate_tolerance_(certificate_tolerance), trace_(trace) {}
+
+void PushRecord::add(const Sample& sample) {
+  // fmax and fmin ignore the NaN that stands for "nothing yet".
+  transition_.max_push_force = std::fmax(transition_.max_push_force, sample.push_force);
+  transition_.min_push_force = std::fmin(transition_.min_push_force, sample.push_force);
+  transition_.worst_certificate =
+      std::fmax(transition_.worst_certificate, sample.certificate);
+  if (trace_) trace_->push_back(sample);
+  if (!(sample.certificate <= certificate_tolerance_)) {
+    stop({TransitionStatus::kUncertified, {}, "an instant failed its certificate"},
+         sample.s);
+  }
+}
+
+void PushRecord::add(EventKind kind, double s) {
+  if (transition_.event_count == Transition::kMaxEvents) {
+    return stop({TransitionStatus::kIterationLimit, {}, "the contact mode alternates"},
+                s);
+  }
+  transition_.events[transition_.event_count++] = {kind, s};
+}
+
+void PushRecord::stop(const Obstacle& obstacle, double s) {
+  transition_.status = obstacle.status;
+  transition_.reason = obstacle.reason;
+  const bool room = transition_.event_count < Transition::kMaxEvents;
+  if (obstacle.event && room) {
+    transition_.events[transition_.event_count++] = {*obstacle.event, s};
+  }
+}
+
+Transition PushRecord::finish(const Grasp& end, double s, double error_estimate,
+                              int instants) {
+  if (!stopped()) transition_.status = TransitionStatus::kCompleted;
+  transition_.end = end;
+  transition_.done = s;
+  transition_.error_estimate = error_estimate;
+  transition_.instants = instants;
+  return transition_;
+}
+
+}  // namespace prehensile

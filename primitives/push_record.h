@@ -1,0 +1,46 @@
+/// What a push leaves behind: extremes, events, samples, and the reason it stopped.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "primitives/transition.h"
+
+namespace prehensile {
+
+/// Why a push cannot go on; status kNotRun: it can.
+struct Obstacle {
+  TransitionStatus status = TransitionStatus::kNotRun;
+  std::optional<EventKind> event;
+  std::string_view reason;
+
+  explicit operator bool() const { return status != TransitionStatus::kNotRun; }
+};
+
+class PushRecord {
+ public:
+  /// Instants whose certificate exceeds `certificate_tolerance` stop the push.
+  PushRecord(double certificate_tolerance, std::vector<Sample>* trace);
+
+  void add(const Sample& sample);
+
+  /// An event that does not end the push. A push whose contact modes alternate more often
+  /// than there is room for is stopped.
+  void add(EventKind kind, double s);
+
+  void stop(const Obstacle& obstacle, double s);
+  bool stopped() const { return transition_.status != TransitionStatus::kNotRun; }
+
+  /// Path of the contact along the pusher [m].
+  void add_slip(double length) { transition_.slipped += length; }
+
+  /// The transition; one that was not stopped has been completed.
+  Transition finish(const Grasp& end, double s, double error_estimate, int instants);
+
+ private:
+  double certificate_tolerance_;
+  std::vector<Sample>* trace_;
+  Transition transition_;
+};
+
+}  // namespace prehensile

@@ -176,8 +176,8 @@ std::string describe(const RollReport& report) {
     }
     out += table.str();
   }
-  if (std::isfinite(now.other_roll_rate)) {
-    out += text("other motion: roll rate %.4f deg/s\n", to_deg(now.other_roll_rate));
+  if (std::isfinite(now.other.roll_rate)) {
+    out += text("other motion: roll rate %.4f deg/s\n", to_deg(now.other.roll_rate));
   }
   if (std::isfinite(report.threshold)) {
     out += text("rolls from a support friction of %.4f on\n", report.threshold);
@@ -201,7 +201,7 @@ nlohmann::ordered_json to_json(const RollReport& report) {
           {"push_force", number(now.push_force)},
           {"roll_rate", number(now.roll_rate)},
           {"v_z", number(now.v_z)},
-          {"other_roll_rate", number(now.other_roll_rate)},
+          {"other_roll_rate", number(now.other.roll_rate)},
           {"support_force_interval",
            {number(now.sheet_force_low), number(now.sheet_force_high)}},
           {"threshold", number(report.threshold)},

@@ -1,10 +1,21 @@
-/// Rolling in the cross-section of a round object between flat jaws: v_z
-/// along the closing direction, v_u along the support normal, roll rate, jaw rate; three
-/// contacts with four modes each, all 64 combinations examined, so that the answer comes
-/// with its verdict on uniqueness.
+/// Rolling in the cross-section of a round object between flat jaws (paper section
+/// VII-C).
 ///
-/// Contacts: jaw 1 at -r and jaw 2 at +r along z, the support ("sheet") at -r along u.
-/// Positive roll rate turns z towards u. Source: paper section VII-C.
+/// The section is cut across the object's long axis: z along the closing direction, u
+/// along the normal of the support ("sheet") into the object. Unknown motion (v_z, v_u,
+/// roll rate, jaw rate); three contacts, each open, sticking or slipping either way: 64
+/// combinations, all examined, so that the answer comes with its verdict on uniqueness.
+///
+/// Signs. Jaw 1 touches at z = -r and pushes along +z, jaw 2 at z = +r and pushes along
+/// -z, the sheet touches at u = -r and pushes along +u. A positive roll rate turns z
+/// towards u; the surface that touches the sheet then moves along +z, so a sheet that
+/// moves along +z rolls the object at +rate / r. The sheet drags the object towards the
+/// downstream jaw: jaw 2 if it moves along +z, jaw 1 otherwise. A positive jaw rate
+/// closes.
+///
+/// Everything is taken in the quasi-static limit, where the balance of forces knows
+/// nothing of the rates: the motions that a combination of modes allows and the forces
+/// that it allows are two polyhedra that do not see each other.
 #pragma once
 
 #include <array>
@@ -17,23 +28,40 @@ namespace prehensile {
 
 /// Constants of the cross-section.
 struct CrossSectionModel {
-  double radius = 0.0;                          ///< [m]
+  double radius = 0.0;                          ///< [m], > 0
   double mass = 0.0;                            ///< [kg]
-  double grip_force = 0.0;                      ///< [N] per finger
-  std::array<double, 2> friction = {0.0, 0.0};  ///< of jaw 1 and jaw 2
+  double grip_force = 0.0;                      ///< [N] per finger, >= 0
+  std::array<double, 2> friction = {0.0, 0.0};  ///< of jaw 1 and jaw 2, >= 0
   JawMode jaw_mode = JawMode::kCoupled;
 };
 
 /// The support that moves along the closing direction.
 struct CrossSectionDrive {
-  double mu = 0.0;          ///< friction of the support
-  double sheet_rate = 0.0;  ///< [m/s] along z, not zero
-  double weight =
-      0.0;  ///< [N] gravity pressing on the support, along -u; may be negative
+  double mu = 0.0;          ///< friction of the support, >= 0
+  double sheet_rate = 0.0;  ///< [m/s] along +z, not zero
+  double weight = 0.0;      ///< [N] gravity along -u: positive presses on the support,
+                            ///< negative lifts off it
 };
 
 enum CrossSectionContact { kJaw1 = 0, kJaw2 = 1, kSheet = 2 };
 
+struct CrossSectionMotion {
+  double v_z = kNan;        ///< [m/s] of the axis
+  double v_u = kNan;        ///< [m/s] of the axis
+  double roll_rate = kNan;  ///< [rad/s]
+  double jaw_rate = kNan;   ///< [m/s] closing
+};
+
+/// Forces on the object by CrossSectionContact.
+struct CrossSectionForces {
+  std::array<double, 3> normal{kNan, kNan, kNan};  ///< [N], >= 0
+  std::array<double, 3> tangential{kNan, kNan,
+                                   kNan};  ///< [N]; jaws along u, sheet along z
+};
+
+/// Statuses: kMoves, kHolds (the object stands still, the sheet slides under it),
+/// kNonuniqueForces, kAmbiguous, kDynamic, kJammed, kBadInput; kOutOfIterations only if a
+/// linear programme was lost to rounding.
 struct CrossSectionInstant {
   InstantStatus status = InstantStatus::kNotRun;
   double v_z = kNan;                                     ///< [m/s]
@@ -43,33 +71,55 @@ struct CrossSectionInstant {
   std::array<double, 3> normal_force{kNan, kNan, kNan};  ///< [N] by CrossSectionContact
   std::array<double, 3> tangential_force{kNan, kNan, kNan};  ///< [N]; jaws along u, sheet
                                                              ///< along z; on the object
+  /// By the motion: open if the gap grows, else stick or slip by the sign of the rate of
+  /// the object relative to the contact, along u at the jaws and along z at the sheet.
   std::array<ContactMode, 3> mode{ContactMode::kOpen, ContactMode::kOpen,
                                   ContactMode::kOpen};
   double push_force = kNan;  ///< |force of the sheet on the object| [N]
 
-  /// Range of the sheet's normal force over all force solutions at this motion [N].
+  /// Range of the sheet's normal force over all force solutions at this motion [N]; the
+  /// forces above are from its inside. The upper end is infinite if jaw and sheet can
+  /// wedge the object between them.
   double sheet_force_low = kNan;
   double sheet_force_high = kNan;
 
-  /// kAmbiguous: another motion that also satisfies every law.
-  double other_roll_rate = kNan;
-  double other_v_z = kNan;
-  int motions_found = 0;  ///< distinct motions over the 64 mode combinations
+  /// Distinct motions among all solutions; a continuum of motions counts as two.
+  int motions_found = 0;
+
+  /// kAmbiguous: a second motion and its forces, which also satisfy every law.
+  CrossSectionMotion other;
+  CrossSectionForces other_forces;
+
+  /// kDynamic: a motion off the sheet that no force of the jaws opposes while gravity and
+  /// grip gain power from it: the object falls.
+  CrossSectionMotion evidence;
+  /// kJammed: forces that balance without gravity and grip and take power from the sheet,
+  /// which wedges the object against the fixed jaw.
+  /// Both are signatures; the proof is that none of the 64 combinations has a solution.
+  CrossSectionForces evidence_forces;
+
+  CrossSectionMotion motion() const { return {v_z, v_u, roll_rate, jaw_rate}; }
+  CrossSectionForces forces() const { return {normal_force, tangential_force}; }
 };
 
-/// All solutions in the quasi-static limit. No exceptions.
+/// All solutions in the quasi-static limit. No heap, no exceptions.
 CrossSectionInstant solve_cross_section(const CrossSectionModel& model,
                                         const CrossSectionDrive& drive) noexcept;
 
 /// Largest violation of balance, cones, complementarity and slip directions by an answer,
-/// dimensionless; derived independently of the solver.
+/// and of what its status claims, dimensionless (units: greater of twice the grip force
+/// and the weight, sheet rate, radius); derived independently of the solver. NaN for an
+/// answer without claim (kNotRun, kOutOfIterations, kBadInput).
 double cross_section_residual(const CrossSectionModel& model,
                               const CrossSectionDrive& drive,
                               const CrossSectionInstant& answer) noexcept;
 
-/// Least friction of the support for which the object rolls (closed form D), for equal
-/// finger frictions mu <= 1; the closed form's own domain is the caller's business.
+/// Least friction of the support for which the object can roll: traction of the jaws over
+/// the load on the sheet, both in closed form. Infinite if no friction suffices: the
+/// downstream jaw has friction above 1 and locks, or the jaws lift the object off.
+/// Sharp and unique if the weight exceeds what the jaws can carry, else a second solution
+/// (the fingers carry the object) exists at any friction.
 double rolling_threshold(const CrossSectionModel& model, double sheet_rate,
-                         double weight);
+                         double weight) noexcept;
 
 }  // namespace prehensile

@@ -1,0 +1,234 @@
+#include "primitives/roll.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mechanics/linear_program.h"
+
+namespace prehensile {
+namespace {
+
+constexpr double kNegligible = 1e-6;
+
+const CylinderShape& cylinder_of(const Model& model) {
+  return *std::get_if<CylinderShape>(&model.scene.object.shape);
+}
+
+Vec2 axis_of(const Model& model) {
+  return cylinder_of(model).axis == Axis::kX ? Vec2(1.0, 0.0) : Vec2(0.0, 1.0);
+}
+
+RollSection refused(std::string_view reason) { return {.reason = reason}; }
+
+/// Whether lines of contact exist that keep the object from tilting and yawing: places of
+/// the resultants on both pads and on the support, along t from the finger axis, such
+/// that the moments about z and about n vanish.
+bool lines_suffice(const Model& model, const PushContact& contact, const Grasp& grasp,
+                   const CrossSectionInstant& instant, double weight) {
+  const ContactPoints pad = model.region.at(grasp.X_HO);
+  const Vec2 t_H = rotated(grasp.X_HO.theta, contact.t);
+  double pad_low = 0.0;
+  double pad_high = 0.0;
+  for (int j = 0; j < pad.count; ++j) {
+    const double along = t_H.dot(Vec2(pad.x[j], pad.y[j]));
+    pad_low = j == 0 ? along : std::min(pad_low, along);
+    pad_high = j == 0 ? along : std::max(pad_high, along);
+  }
+  const double finger = contact.t.dot(finger_in_object(grasp.X_HO));
+  const PushContact::Segment support = contact.segment(0.0);
+  const std::array<double, 3> low = {pad_low, pad_low, contact.t.dot(support.a) - finger};
+  const std::array<double, 3> high = {pad_high, pad_high,
+                                      contact.t.dot(support.b) - finger};
+  const double arm_of_weight = contact.t.dot(model.p_OCom) - finger;
+
+  // Unknowns: places above `low`, in units of the object's length and the load scale.
+  const double length = cylinder_of(model).length;
+  const auto& normal = instant.normal_force;
+  const auto& tangential = instant.tangential_force;
+  const double force = std::max({normal[kJaw1], normal[kJaw2], normal[kSheet]});
+  const std::array<double, 3> tilt = {tangential[kJaw1], tangential[kJaw2],
+                                      normal[kSheet]};
+  const std::array<double, 3> yaw = {normal[kJaw1], -normal[kJaw2], tangential[kSheet]};
+  LinearProgram program(3);
+  LinearProgram::Point& tilts = program.add_row(LinearProgram::Relation::kEqual, 0.0);
+  LinearProgram::Point& yaws = program.add_row(LinearProgram::Relation::kEqual, 0.0);
+  double tilt_right = weight * arm_of_weight;
+  double yaw_right = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    tilts[i] = tilt[i] / force;
+    yaws[i] = yaw[i] / force;
+    tilt_right -= tilt[i] * low[i];
+    yaw_right -= yaw[i] * low[i];
+    program.add_row(LinearProgram::Relation::kAtMost, (high[i] - low[i]) / length)[i] =
+        1.0;
+  }
+  program.right[0] = tilt_right / (force * length);
+  program.right[1] = yaw_right / (force * length);
+  return find_point(program).feasible();
+}
+
+Transition& stop(Transition& out, TransitionStatus status, std::string_view reason) {
+  out.status = status;
+  out.reason = reason;
+  return out;
+}
+
+Transition& finish(Transition& out) {
+  out.status = TransitionStatus::kCompleted;
+  out.done = 1.0;
+  return out;
+}
+
+void add_event(Transition& out, EventKind kind) {
+  out.events[out.event_count++] = {kind, out.done};
+}
+
+/// The support sticks and the object turns in place between the jaws.
+bool rolls(const CrossSectionModel& section, double sheet_rate,
+           const CrossSectionInstant& instant) {
+  const double error =
+      std::max({std::abs(instant.v_z), std::abs(instant.v_u),
+                std::abs(instant.roll_rate * section.radius - sheet_rate)});
+  return usable(instant.status) && error <= kNegligible * std::abs(sheet_rate);
+}
+
+/// Says why an instant is no roll.
+Transition& stop_at_start(Transition& out, const CrossSectionInstant& instant) {
+  switch (instant.status) {
+    case InstantStatus::kAmbiguous:
+      return stop(out, TransitionStatus::kAmbiguous,
+                  "two motions are possible, one of them with the object carried by the "
+                  "fingers and the support unloaded");
+    case InstantStatus::kDynamic:
+      add_event(out, EventKind::kGravityLost);
+      return stop(
+          out, TransitionStatus::kFalls,
+          "the jaws do not hold the object, and gravity pulls it off the support");
+    case InstantStatus::kJammed:
+      return stop(out, TransitionStatus::kJammed,
+                  "the support wedges the object against the fixed jaw");
+    case InstantStatus::kBadInput:
+      return stop(out, TransitionStatus::kRefused, "a number is out of range");
+    case InstantStatus::kMoves:
+    case InstantStatus::kHolds:
+    case InstantStatus::kNonuniqueForces:
+      break;
+    case InstantStatus::kNotRun:
+    case InstantStatus::kSeparated:
+    case InstantStatus::kOutOfIterations:
+      return stop(out, TransitionStatus::kIterationLimit,
+                  "the instant was lost to rounding");
+  }
+  add_event(out, EventKind::kGuard);
+  if (instant.mode[kSheet] == ContactMode::kStick) {
+    return stop(out, TransitionStatus::kLeftGuard,
+                "the support drags the object along and pushes the jaws with it");
+  }
+  return stop(out, TransitionStatus::kLeftGuard,
+              "the support slides under the object instead of rolling it: too little "
+              "friction of the support or too much grip");
+}
+
+/// What stays the same along the push.
+struct Constant {
+  const Grasp& start;
+  const RollSection& section;
+  double travel;
+  const CrossSectionInstant& instant;
+  double certificate;
+};
+
+double psi_at(const Constant& constant, double s) {
+  return constant.start.psi + s * constant.section.psi_per_travel * constant.travel;
+}
+
+Sample sample_at(const Constant& constant, double radius, double s) {
+  const CrossSectionInstant& instant = constant.instant;
+  Sample sample;
+  sample.s = s;
+  sample.grasp = {constant.start.X_HO, psi_at(constant, s)};
+  sample.push_force = instant.push_force;
+  sample.normal_force = instant.normal_force[kSheet];
+  sample.tangential_force = instant.tangential_force[kSheet];
+  sample.slip_rate = instant.v_z + instant.roll_rate * radius - constant.travel;
+  sample.status = instant.status;
+  sample.certificate = constant.certificate;
+  return sample;
+}
+
+}  // namespace
+
+RollSection roll_section(const Model& model, int contact_index,
+                         const Grasp& grasp) noexcept {
+  if (!model.cross_section)
+    return refused("the object is not a cylinder held on its curved side");
+  if (contact_index < 0 || contact_index >= static_cast<int>(model.contacts.size()))
+    return refused("there is no such contact");
+  const PushContact& contact = model.contacts[contact_index];
+  const double along = contact.t.dot(axis_of(model));
+  if (std::abs(along) < 0.5)
+    return refused("the support is not on one of the object's long sides");
+  if (contact.is_point) return refused("a point gives a rolling object no support");
+  if (!pads_on_object(model, grasp.X_HO))
+    return refused("the pads are not on the object");
+  const double radius = model.cross_section->radius;
+  if (std::abs(contact.n.dot(model.p_OCom)) > kNegligible * radius)
+    return refused(
+        "the centre of mass is off the axis about which the object would roll");
+  const Vec2 gravity = model.mass * contact.g_O;
+  const double rounding = 1e-12 * gravity.norm();
+  if (std::abs(contact.t.dot(gravity)) > kNegligible * model.F + rounding)
+    return refused(
+        "gravity has a part along the object's axis, which sliding pads cannot "
+        "hold");
+  return {.possible = true,
+          .weight = -contact.n.dot(gravity),
+          .psi_per_travel = std::copysign(1.0 / radius, along)};
+}
+
+Transition apply_roll(const Model& model, const Grasp& start, const Roll& roll,
+                      const TransitionOptions& options,
+                      std::vector<Sample>* trace) noexcept {
+  Transition out;
+  out.end = start;
+  const RollSection section = roll_section(model, roll.contact, start);
+  if (!section.possible) return stop(out, TransitionStatus::kRefused, section.reason);
+  if (!std::isfinite(roll.travel))
+    return stop(out, TransitionStatus::kRefused, "the travel is not a finite number");
+  if (!std::isfinite(roll.grip_force) || roll.grip_force < 0.0)
+    return stop(out, TransitionStatus::kRefused, "the grip force is not a finite number");
+  out.error_estimate = 0.0;  // the end is exact
+  if (roll.travel == 0.0) return finish(out);
+
+  CrossSectionModel constants = *model.cross_section;
+  if (roll.grip_force > 0.0) constants.grip_force = roll.grip_force;
+  const PushContact& contact = model.contacts[roll.contact];
+  const CrossSectionDrive drive{contact.mu, roll.travel, section.weight};
+  const CrossSectionInstant instant = solve_cross_section(constants, drive);
+  out.instants = 1;
+  out.worst_certificate = cross_section_residual(constants, drive, instant);
+  out.max_push_force = out.min_push_force = instant.push_force;
+  const Constant constant{start, section, roll.travel, instant, out.worst_certificate};
+  if (trace != nullptr) trace->push_back(sample_at(constant, constants.radius, 0.0));
+
+  if (out.worst_certificate > options.certificate_tolerance)
+    return stop(out, TransitionStatus::kUncertified,
+                "the instant failed its certificate");
+  if (!rolls(constants, roll.travel, instant)) return stop_at_start(out, instant);
+  if (!lines_suffice(model, contact, start, instant, section.weight))
+    return stop(out, TransitionStatus::kRefused,
+                "pads and support are too short: the object would tilt or yaw");
+
+  if (trace != nullptr) {
+    const double wanted = std::fmax(1.0, std::ceil(1.0 / options.max_step));
+    const int samples =
+        static_cast<int>(std::fmin(wanted, std::max(1, options.max_steps)));
+    for (int i = 1; i <= samples; ++i)
+      trace->push_back(
+          sample_at(constant, constants.radius, static_cast<double>(i) / samples));
+  }
+  out.end.psi = psi_at(constant, 1.0);
+  return finish(out);
+}
+
+}  // namespace prehensile

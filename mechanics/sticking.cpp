@@ -69,6 +69,20 @@ double end_slack(const StickContact& contact, const Effort& effort) {
   return std::min(-effort.moment_a, effort.moment_b) / contact.c;
 }
 
+Vec2 centre_of_pressure(const StickContact& contact, const Effort& effort) {
+  return contact.a - effort.moment_a / effort.force.dot(contact.n) * contact.t;
+}
+
+/// Greatest normal rate of the pusher between x and y, over the speed of the twist.
+double advance(const StickContact& contact, const Vec2& x, const Vec2& y,
+               const Vec2& p_OF, const Vec2& velocity, double omega) {
+  const auto rate = [&](const Vec2& end) {
+    return contact.n.dot(velocity + omega * perp(end - p_OF));
+  };
+  const double turn = contact.c * omega;
+  return std::max(rate(x), rate(y)) / std::sqrt(velocity.squaredNorm() + turn * turn);
+}
+
 /// A single point cannot choose its moment: nothing to test within the tolerance.
 double point_slack(const StickContact& contact, const Effort& effort, double tolerance) {
   const double slack = end_slack(contact, effort);
@@ -109,8 +123,8 @@ StickTest reported(const StickContact& contact, const Vec2& p_OF, const Drag& dr
   test.push_force = F * effort.force.norm();
   test.normal_force = F * effort.force.dot(contact.n);
   test.tangential_force = F * effort.force.dot(contact.t);
-  const double from_a = -F * effort.moment_a / test.normal_force;
-  test.centre_of_pressure = (contact.a - contact.centre).dot(contact.t) + from_a;
+  test.centre_of_pressure =
+      (centre_of_pressure(contact, effort) - contact.centre).dot(contact.t);
   test.slack = std::min(cone_slack(contact, effort),
                         point_slack(contact, effort, moment_tolerance));
   return test;
@@ -136,8 +150,12 @@ StickContact stick_contact(const Model& model, const PushContact& contact, doubl
 
 StickTest stick_test(const StickContact& contact, double F, const Vec2& p_OF,
                      const Vec2& e, double v, double omega) noexcept {
-  const Drag drag = ellipsoid_drag(contact.c, v * e, omega);
-  return reported(contact, p_OF, drag, F, kEllipsoidMoment);
+  const Vec2 velocity = v * e;
+  const Drag drag = ellipsoid_drag(contact.c, velocity, omega);
+  StickTest test = reported(contact, p_OF, drag, F, kEllipsoidMoment);
+  test.slack =
+      std::min(test.slack, advance(contact, contact.a, contact.b, p_OF, velocity, omega));
+  return test;
 }
 
 double robust_slack(const StickContact& contact, const Vec2& p_OF, const Vec2& velocity,
@@ -153,8 +171,11 @@ double robust_slack(const StickContact& contact, const Vec2& p_OF, const Vec2& v
   if (contact.is_point) {
     const Drag nominal = ellipsoid_drag(contact.c, velocity, omega);
     const Effort effort = effort_of(contact, p_OF, nominal, 1.0);
-    return std::min(slack, point_slack(contact, effort, kEllipsoidMoment));
+    const Vec2 point = centre_of_pressure(contact, effort);
+    return std::min({slack, point_slack(contact, effort, kEllipsoidMoment),
+                     advance(contact, point, point, p_OF, velocity, omega)});
   }
+  slack = std::min(slack, advance(contact, weak.a, weak.b, p_OF, velocity, omega));
   // The moment about an end x has one stationary point in c, where
   // c^2 omega^2 + 2 |v|^2 = omega cross(p - x, v): nearly always outside the box.
   for (const Vec2& end : {weak.a, weak.b}) {
@@ -188,7 +209,8 @@ StickTest exact_stick_test(const Model& model, const PushContact& contact, doubl
   const Drag nominal = drag_at(1.0);
   test = reported(stick, p_OF, nominal, model.F, kPadMoment);
   const StickContact weak = weakened(stick, margin);
-  test.slack = std::min(test.slack, slack_of_drag(weak, p_OF, nominal, margin));
+  test.slack = std::min({test.slack, slack_of_drag(weak, p_OF, nominal, margin),
+                         advance(stick, weak.a, weak.b, p_OF, v * e, omega)});
   if (margin.torque_radius == 0.0) return test;
   for (const double stretch : {1.0 - margin.torque_radius, 1.0 + margin.torque_radius}) {
     test.slack =

@@ -10,6 +10,11 @@
 /// Signs: the object moves with velocity |v| e relative to the hand, so p_OF moves along
 /// -e; kappa > 0 turns the object counter-clockwise.
 ///
+/// A contact is said to stick only if the pusher also advances, at one end of the face at
+/// least. Where it recedes everywhere, gravity may still keep it pressed to the object,
+/// but the object standing still in the grasp while the pusher leaves is an equilibrium
+/// too.
+///
 /// Source of the stable-push test: motion cones of Chavan-Dafle, Holladay and Rodriguez
 /// (RSS 2018) over the ellipsoid of Howe and Cutkosky; the intervals are derived in
 /// sticking_kappas.cpp.
@@ -83,7 +88,8 @@ KappaSet sticking_kappas(const StickContact& contact, const Vec2& p_OF,
 /// The same for every member of the box of uncertainty at the same omega/|v|; kappa still
 /// counts with the nominal c. A subset of the nominal set, and equal to the intersection
 /// over the box unless the moment of gravity about a face end exceeds 2 F c: there the
-/// set may be too small, never too large. No heap.
+/// set may be too small, never too large. Where a point pusher has a range, whether it
+/// advances at its later place is left to robust_slack. No heap.
 KappaSet robust_kappas(const StickContact& contact, const Vec2& p_OF, const Vec2& e,
                        const Margin& margin) noexcept;
 
@@ -94,9 +100,9 @@ struct StickTest {
   double normal_force = kNan;        ///< [N]
   double tangential_force = kNan;    ///< [N] along t
   double centre_of_pressure = kNan;  ///< [m] along t from the centre of the face
-  double slack =
-      kNan;  ///< least of cone slack / F and moment slack about the ends / (F c);
-             ///< >= 0: sticks
+  /// Least of cone slack / F, moment slack about the ends / (F c), and normal rate of the
+  /// advancing end / sqrt(v^2 + c^2 omega^2). >= 0: sticks.
+  double slack = kNan;
 };
 
 /// One instant with the friction wrench of the ellipsoid. The object moves with (v e,

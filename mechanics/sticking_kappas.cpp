@@ -82,7 +82,7 @@ Solutions mirrored(const Solutions& s) { return {-s.hi, -s.lo, {-s.gap.hi, -s.ga
 /// are joined to one, which can only make the set smaller.
 class Intersection {
  public:
-  enum Constraint { kFriction, kEndA, kEndB, kConstraintCount };
+  enum Constraint { kFriction, kEndA, kEndB, kAdvance, kConstraintCount };
 
   /// `scale`: kappa of the set over kappa of these solutions.
   void keep(Constraint constraint, const Solutions& solutions, double scale) {
@@ -175,6 +175,21 @@ void keep_end(double c, double A, double B, const Factors& radius, Keep&& keep) 
   keep(end_solutions(c * radius.lo * radius.lo / radius.hi, A, B), 1.0 / radius.hi);
 }
 
+/// The kappas with which the pusher recedes at both face ends: an open gap, perhaps
+/// without end. The normal rate at x is e_n - kappa s_x / c with s_x the place of x along
+/// t from the finger axis; omega/|v| = kappa / c holds for all members of the box.
+Gap receding(const StickContact& contact, const Vec2& p_OF, const Vec2& e, double place) {
+  Gap gap{-kInfinity, kInfinity};
+  const double rate = contact.c * e.dot(contact.n);
+  for (const double s : {(contact.a - p_OF).dot(contact.t) + place,
+                         (contact.b - p_OF).dot(contact.t) - place}) {
+    if (s > 0.0) gap.lo = std::max(gap.lo, rate / s);
+    if (s < 0.0) gap.hi = std::min(gap.hi, rate / s);
+    if (s == 0.0 && rate >= 0.0) return {};
+  }
+  return gap;
+}
+
 /// Both face ends over the box. The moments are affine in m/F, in the place of the pusher
 /// and in the centre of mass, so the worst of each is known beforehand.
 void keep_ends(const StickContact& contact, const Vec2& p_OF, const Vec2& e,
@@ -217,6 +232,8 @@ KappaSet robust_kappas(const StickContact& contact, const Vec2& p_OF, const Vec2
   Intersection kept;
   keep_cone(contact, e, margin, kept);
   keep_ends(contact, p_OF, e, contact.is_point ? Margin::none() : margin, kept);
+  const double place = contact.is_point ? 0.0 : margin.place;
+  kept.keep(Intersection::kAdvance, {.gap = receding(contact, p_OF, e, place)}, 1.0);
   return kept.set();
 }
 

@@ -54,8 +54,12 @@ double slack_by_corner_forces(const StickContact& contact, const Vec2& p, const 
   const double N_b = (m_normal - f_n * lever_a) / (lever_b - lever_a);
   const double N_a = f_n - N_b;
   const double length = (b - a).norm();
-  return std::min(
-      {contact.mu * (N_a + N_b) - std::abs(f_t), N_a * length / c, N_b * length / c});
+  // One of the two points at least must move into the object where it stands still.
+  const auto advance = [&](const Vec2& r) {
+    return scale * (e.dot(contact.n) + w * cross(r, contact.n));
+  };
+  return std::min({contact.mu * (N_a + N_b) - std::abs(f_t), N_a * length / c,
+                   N_b * length / c, std::max(advance(a), advance(b))});
 }
 
 double random_kappa(Random& random, const KappaSet& set) {

@@ -1,0 +1,174 @@
+#include "planner/bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "planner/angle_scan.h"
+#include "planner/planner.h"
+
+namespace prehensile {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kAccuracy = 1e-7;  // [m] of distances; they are rounded down
+
+/// Angles that a member of the goal set may have, near the angle of the start. Farther
+/// turns have the same places and a longer way.
+struct AngleRange {
+  double low, high;
+};
+
+double angle_slack(const Goal& goal) {
+  return goal.test == GoalTest::kWeightedSum
+             ? goal.position_tolerance / goal.characteristic_length
+             : goal.angle_tolerance;
+}
+
+/// The goal in the pad plane seen from a start, as functions of the end angle.
+class GoalSet {
+ public:
+  GoalSet(const Model& model, const Grasp& start, const Goal& goal)
+      : goal_(goal),
+        p_OF_(finger_in_object(start.X_HO)),
+        theta_(start.X_HO.theta),
+        nearest_(theta_ + wrapped(goal.theta.value_or(theta_) - theta_)),
+        c_(model.c) {}
+
+  /// Least of f over the angles of the goal set.
+  template <class Function>
+  double least(double slope, const Function& f) const {
+    if (!goal_.theta) return scan({theta_ - kPi, theta_ + kPi}, slope, f);
+    const double slack = std::min(angle_slack(goal_), kPi);
+    const double other = nearest_ + (nearest_ <= theta_ ? 2.0 * kPi : -2.0 * kPi);
+    return std::min(scan({nearest_ - slack, nearest_ + slack}, slope, f),
+                    scan({other - slack, other + slack}, slope, f));
+  }
+
+  /// Tolerance that is left for the position at an end angle [m].
+  double position_slack(double theta) const {
+    if (goal_.test != GoalTest::kWeightedSum || !goal_.theta) {
+      return goal_.position_tolerance;
+    }
+    const double off = std::abs(wrapped(theta - *goal_.theta));
+    return std::max(0.0, goal_.position_tolerance - goal_.characteristic_length * off);
+  }
+
+  /// The finger axis moves in O by at least this if the object ends at angle theta [m]:
+  /// turning the hand about the finger axis takes O to X_HO = -R(theta) p_OF, and the
+  /// rest of the way in H is as long as that of the finger axis in O.
+  double least_path(double theta) const {
+    const Vec2 turned = -rotated(theta, p_OF_);
+    const double slack = position_slack(theta);
+    const Vec2 off{goal_.x ? std::abs(turned.x() - *goal_.x) : 0.0,
+                   goal_.y ? std::abs(turned.y() - *goal_.y) : 0.0};
+    if (goal_.test == GoalTest::kWeightedSum) return std::max(0.0, off.norm() - slack);
+    return std::hypot(std::max(0.0, off.x() - slack), std::max(0.0, off.y() - slack));
+  }
+
+  double distance() const {
+    const double slope = p_OF_.norm() + goal_.characteristic_length + c_;
+    const double bound = least(slope, [this](double theta) {
+      return std::hypot(least_path(theta), c_ * (theta - theta_));
+    });
+    return std::max(0.0, bound);
+  }
+
+  bool fixes_place() const { return goal_.x && goal_.y; }
+
+  /// Where the finger axis ends in O at this angle, if both coordinates are fixed.
+  Vec2 end_place(double theta) const { return -rotated(-theta, {*goal_.x, *goal_.y}); }
+
+  /// Greatest distance of a member of the goal set at this angle from `end_place` [m].
+  double place_slack(double theta) const {
+    const bool square = goal_.test == GoalTest::kPerCoordinate;
+    return position_slack(theta) * (square ? std::numbers::sqrt2 : 1.0);
+  }
+
+  double slope_of_place() const {
+    return std::hypot(*goal_.x, *goal_.y) + 2.0 * goal_.characteristic_length;
+  }
+
+  const Vec2& start_place() const { return p_OF_; }
+
+ private:
+  template <class Function>
+  static double scan(const AngleRange& range, double slope, const Function& f) {
+    return least_over_angle(range.low, range.high, slope, kAccuracy, f);
+  }
+
+  const Goal& goal_;
+  Vec2 p_OF_;
+  double theta_, nearest_, c_;
+};
+
+/// For an isotropic pad the friction force points along the motion and is F phi, phi
+/// <= 1. |v| / phi <= kDiscDrag sqrt(|v|^2 + (c omega)^2): 1 for the ellipsoid, 3/2 for a
+/// uniform disc (where the centre of rotation is near the finger axis), and a little more
+/// for its quadrature.
+constexpr double kDiscDrag = 1.6;
+
+/// Least travel of a plan whose only placement is this contact; infinity if impossible.
+///
+/// Along any path of one contact the push force stays in its friction cone. For an edge
+/// w = mu n -+ t of the dual cone: phi F w.e >= w.m g =: G at each instant, e = -dp/|dp|.
+/// G >= 0: then w.e >= G/F, and summed over the path w.(p_0 - p_1) >= G/F |p_0 - p_1|.
+/// G < 0 (gravity helps): w.e |dp| >= -|G|/F |dp|/phi, so w.(p_1 - p_0) <= |G|/F x
+/// kDiscDrag x T.
+double single_run_travel(const Model& model, const PushContact& contact,
+                         const GoalSet& set) {
+  double travel = 0.0;
+  for (const double side : {1.0, -1.0}) {
+    const Vec2 w = contact.mu * contact.n + side * contact.t;
+    const double G = model.mass * w.dot(contact.g_O) / model.F;
+    const double reach = w.norm() + std::max(0.0, G);
+    // The least amount by which the edge is violated over the goal set.
+    const double violation = set.least(reach * set.slope_of_place(), [&](double theta) {
+      const Vec2 d = set.end_place(theta) - set.start_place();
+      return w.dot(d) + std::max(0.0, G) * d.norm() - reach * set.place_slack(theta);
+    });
+    if (violation <= kAccuracy) continue;
+    if (G >= 0.0) return std::numeric_limits<double>::infinity();
+    travel = std::max(travel, violation / (-G * kDiscDrag));
+  }
+  return travel;
+}
+
+double in_plane_bound(const Model& model, const GoalSet& set, double distance) {
+  const double straight = distance / model.L;
+  const bool isotropic = model.region.is_isotropic() && model.region.is_fixed_in_hand();
+  if (!isotropic || !set.fixes_place()) return 1.0 + straight;
+  double bound = 2.0 + straight;
+  for (const PushContact& contact : model.contacts) {
+    const double travel = single_run_travel(model, contact, set);
+    bound = std::min(bound, 1.0 + std::max(distance, travel) / model.L);
+  }
+  return bound;
+}
+
+/// Least roll that the goal asks for [m] of the rolling surface.
+double roll_path(const Model& model, const Grasp& start, const Goal& goal) {
+  if (!goal.psi || !model.cross_section) return 0.0;
+  const double off = std::abs(wrapped(*goal.psi - start.psi)) - angle_slack(goal);
+  return model.cross_section->radius * std::max(0.0, off);
+}
+
+}  // namespace
+
+double distance_to_goal(const Model& model, const Grasp& start, const Goal& goal) {
+  return GoalSet(model, start, goal).distance();
+}
+
+double lower_bound(const Model& model, const Grasp& start, const Goal& goal) {
+  const GoalSet set(model, start, goal);
+  const double distance = set.distance();
+  const double roll = roll_path(model, start, goal);
+  double bound = 0.0;
+  if (distance > 0.0) bound += in_plane_bound(model, set, distance);
+  if (roll > 0.0) bound += 1.0 + roll / model.L;
+  if (bound == 0.0 && !reaches(goal, start)) bound = 1.0;
+  return bound;
+}
+
+}  // namespace prehensile

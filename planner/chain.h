@@ -1,0 +1,71 @@
+/// A chain of straight pushes through given way-points: which rotation each push should
+/// do so that their sum is the wanted one and the path is shortest. Exact, no search.
+///
+/// With lengths l_k and feasible kappas I_k (steering), T = sum l_k sqrt(1 + kappa_k^2)
+/// is least subject to sum l_k kappa_k = c dtheta where every kappa_k is one common value
+/// clipped to I_k: the stationarity condition of the convex problem. The common value is
+/// the root of a piecewise linear function, found from its sorted breakpoints.
+#pragma once
+
+#include <array>
+
+#include "planner/steering.h"
+
+namespace prehensile {
+
+/// Where a leg starts or ends. Gravity is held there by the grasp alone: over the margin
+/// box at a way-point, nominally at the start and the goal, which are not the planner's
+/// choice.
+struct Stop {
+  Vec2 p_OF = Vec2::Zero();
+  bool given = false;  ///< start or goal
+};
+
+/// One straight push of a chain.
+struct Leg {
+  int contact = -1;                             ///< index in SearchModel::contacts
+  Vec2 from = Vec2::Zero(), to = Vec2::Zero();  ///< p_OF
+  double length = 0.0;                          ///< [m] > 0
+  KappaSet kappas;
+};
+
+struct Chain {
+  static constexpr int kMaxLegs = 24;
+  int count = 0;
+  std::array<Leg, kMaxLegs> legs;
+  std::array<double, kMaxLegs> kappa{};  ///< chosen by solve_chain
+  double cost = kNan;                    ///< J of the chain
+};
+
+/// Shortest straight push that the search considers [m].
+inline constexpr double kShortestLeg = 1e-5;
+
+/// The leg from -> to by a contact; false if it is too short, leaves the object, loses
+/// gravity at an end, or sticks for no kappa. No heap.
+bool make_leg(const SearchModel& search, int contact, const Stop& from, const Stop& to,
+              Work& work, Leg& leg) noexcept;
+
+/// Chooses kappas for a total rotation dtheta [rad] and the cost; false if the chain
+/// cannot produce it. Legs with several intervals are tried in all combinations up to
+/// 256. No heap.
+bool solve_chain(const SearchModel& search, double dtheta, Chain& chain) noexcept;
+
+/// Placements of the chain: runs of legs by one contact.
+int placements(const Chain& chain) noexcept;
+
+/// The moves of a solved chain, starting at this angle.
+Move move_of(const SearchModel& search, const Chain& chain, int leg, double theta_from);
+
+/// Rotation of one leg of a solved chain [rad].
+double turn_of(const SearchModel& search, const Chain& chain, int leg);
+
+/// Least slack of a move with the real pad over the margin box, at as many points as its
+/// pad asks for. No heap.
+double exact_slack(const SearchModel& search, const Move& move, Work& work) noexcept;
+
+/// Least slack of a solved chain with the real pad over the margin box, at points along
+/// every move; stops at the first negative one. No heap.
+double chain_slack(const SearchModel& search, const Chain& chain, double theta_start,
+                   Work& work) noexcept;
+
+}  // namespace prehensile

@@ -1,0 +1,82 @@
+#include "planner/exact_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "planner/roll_step.h"
+
+namespace prehensile {
+namespace {
+
+constexpr double kPoseAgreement = 1e-6;  // [m] and [rad]
+
+double pose_error(const Grasp& a, const Grasp& b) {
+  return std::max({std::hypot(a.X_HO.x - b.X_HO.x, a.X_HO.y - b.X_HO.y),
+                   std::abs(a.X_HO.theta - b.X_HO.theta), std::abs(a.psi - b.psi)});
+}
+
+/// What is wrong with a push, or an empty text.
+std::string fault_of(const PlannedPush& push, const Transition& done,
+                     const TransitionOptions& options) {
+  if (!done.completed()) {
+    return std::string(name(done.status)) +
+           (done.reason.empty() ? "" : ": " + std::string(done.reason));
+  }
+  if (!(done.worst_certificate <= options.certificate_tolerance)) {
+    return "an instant fails its certificate";
+  }
+  if (!(push.slack >= -kStickTolerance)) return "it slips within the margin";
+  const bool rolls = std::holds_alternative<Roll>(push.push);
+  if (!rolls && done.slipped > kPoseAgreement) return "the object slips on the pusher";
+  if (!(pose_error(done.end, push.end) <= kPoseAgreement)) {
+    return "the object ends elsewhere";
+  }
+  return {};
+}
+
+}  // namespace
+
+double push_slack(const Model& model, const Grasp& start, const Push& push,
+                  const Margin& margin) {
+  if (const auto* roll = std::get_if<Roll>(&push))
+    return roll_slack(model, *roll, margin);
+  constexpr double kPointTravel = 2e-3;  // [m]
+  constexpr double kPointTurn = 0.1;     // [rad]
+  const LinearPush linear = as_linear(push);
+  const PushContact& contact = model.contacts[linear.contact];
+  const Vec2 p_OF = finger_in_object(start.X_HO);
+  const double parts =
+      std::max(linear.travel / kPointTravel, std::abs(linear.turn) / kPointTurn);
+  const int points = static_cast<int>(std::clamp(std::ceil(parts) + 1.0, 3.0, 50.0));
+  double slack = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < points; ++i) {
+    const double s = static_cast<double>(i) / (points - 1);
+    const PlanarPose X_HO = pose_from_finger(p_OF - s * linear.travel * linear.e,
+                                             start.X_HO.theta + s * linear.turn);
+    const StickTest test = exact_stick_test(model, contact, linear.place, X_HO, linear.e,
+                                            linear.travel, linear.turn, margin);
+    slack = std::min(slack, test.slack);
+  }
+  return slack;
+}
+
+bool check_exactly(const Model& model, const TransitionOptions& options, Plan& plan,
+                   std::string* why) {
+  for (std::size_t i = 0; i < plan.pushes.size(); ++i) {
+    PlannedPush& push = plan.pushes[i];
+    const Transition done = apply(model, push.start, push.push, options);
+    plan.instants += done.instants;
+    push.push_force = done.max_push_force;
+    push.certificate = done.worst_certificate;
+    push.error_estimate = done.error_estimate;
+    push.slack = push_slack(model, push.start, push.push, plan.margin);
+    const std::string fault = fault_of(push, done, options);
+    if (fault.empty()) continue;
+    if (why) *why = "push " + std::to_string(i + 1) + ": " + fault;
+    return false;
+  }
+  return true;
+}
+
+}  // namespace prehensile

@@ -1,0 +1,23 @@
+/// The exact check of a plan found by a search: every push is done by the transition
+/// function with the real pads, and sticks over the margin box at points along it.
+#pragma once
+
+#include <string>
+
+#include "planner/plan.h"
+
+namespace prehensile {
+
+/// Least slack over the margin box along a push that starts at this grasp, by the real
+/// pad; points every 2 mm and 0.1 rad, at most 50. Infinity for a roll, which has no
+/// margin box.
+double push_slack(const Model& model, const Grasp& start, const Push& push,
+                  const Margin& margin);
+
+/// Fills force, slack, certificate and error estimate of every push and counts instants.
+/// True if each push completes without slip, certified, with slack >= 0 over plan.margin,
+/// and ends within 1e-6 of where the plan says; else `why` names the first that does not.
+bool check_exactly(const Model& model, const TransitionOptions& options, Plan& plan,
+                   std::string* why);
+
+}  // namespace prehensile

@@ -1,0 +1,137 @@
+#include "planner/goal.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace prehensile {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// Offsets of a free angle from that of the start [degrees].
+constexpr std::array<double, 12> kAngles = {0.0,   15.0, -15.0, 30.0,  -30.0,  60.0,
+                                            -60.0, 90.0, -90.0, 135.0, -135.0, 180.0};
+/// Offsets of one free position in shares of the object's length; of two free ones.
+constexpr std::array<double, 7> kOffsets = {0.0,   0.125, -0.125, 0.25,
+                                            -0.25, 0.375, -0.375};
+constexpr std::array<double, 5> kCoarseOffsets = {0.0, 0.15, -0.15, 0.3, -0.3};
+
+double flat_distance(const Model& model, const FlatState& from, const GoalPlace& to) {
+  const double dtheta = to.theta[0] - from.theta;
+  return std::hypot((to.p_OF - from.p_OF).norm(), model.c * dtheta);
+}
+
+class PlaceCollector {
+ public:
+  PlaceCollector(const Model& model, const Goal& goal, const FlatState& start)
+      : model_(model), goal_(goal), start_(start) {}
+
+  /// All places at one angle of O in H (and its whole turns).
+  void add_angle(double theta) {
+    const Vec2 kept = -rotated(theta, start_.p_OF);
+    const bool both_free = !goal_.x && !goal_.y;
+    if (both_free) {
+      for (const double dx : kCoarseOffsets) {
+        for (const double dy : kCoarseOffsets) add(theta, kept + model_.L * Vec2{dx, dy});
+      }
+    } else if (goal_.x && goal_.y) {
+      add(theta, {*goal_.x, *goal_.y});
+    } else {
+      for (const double offset : kOffsets) {
+        add(theta, {goal_.x.value_or(kept.x() + model_.L * offset),
+                    goal_.y.value_or(kept.y() + model_.L * offset)});
+      }
+    }
+  }
+
+  GoalPlaces sorted() {
+    std::sort(places_.places.begin(), places_.places.begin() + places_.count,
+              [this](const GoalPlace& a, const GoalPlace& b) {
+                return flat_distance(model_, start_, a) <
+                       flat_distance(model_, start_, b);
+              });
+    return places_;
+  }
+
+ private:
+  void add(double theta, const Vec2& position) {
+    const Vec2 p_OF = -rotated(-theta, position);
+    if (places_.count == GoalPlaces::kCapacity || !contains(model_.outline, p_OF)) return;
+    GoalPlace& place = places_.places[places_.count++];
+    place.p_OF = p_OF;
+    place.count = goal_.theta ? 3 : 1;
+    place.theta = {theta, theta + 2.0 * kPi, theta - 2.0 * kPi};
+  }
+
+  const Model& model_;
+  const Goal& goal_;
+  const FlatState& start_;
+  GoalPlaces places_;
+};
+
+}  // namespace
+
+GoalError goal_error(const Goal& goal, const Grasp& grasp) {
+  const auto angle_error = [](const std::optional<double>& wanted, double angle) {
+    return wanted ? std::abs(wrapped(angle - *wanted)) : 0.0;
+  };
+  return {goal.x ? std::abs(grasp.X_HO.x - *goal.x) : 0.0,
+          goal.y ? std::abs(grasp.X_HO.y - *goal.y) : 0.0,
+          angle_error(goal.theta, grasp.X_HO.theta), angle_error(goal.psi, grasp.psi)};
+}
+
+double goal_excess(const Goal& goal, const Grasp& grasp) {
+  const GoalError error = goal_error(goal, grasp);
+  if (goal.test == GoalTest::kWeightedSum) {
+    const double sum = std::hypot(error.x, error.y) +
+                       goal.characteristic_length * (error.theta + error.psi);
+    return std::max(0.0, sum - goal.position_tolerance);
+  }
+  const double position = std::max(error.x, error.y) / goal.position_tolerance;
+  const double angle = std::max(error.theta, error.psi) / goal.angle_tolerance;
+  return std::max(0.0, std::max(position, angle) - 1.0);
+}
+
+bool reaches(const Goal& goal, const Grasp& grasp) {
+  return goal_excess(goal, grasp) <= 0.0;
+}
+
+GoalPlaces goal_places(const Model& model, const Goal& goal,
+                       const FlatState& start) noexcept {
+  PlaceCollector collector(model, goal, start);
+  if (goal.theta) {
+    collector.add_angle(start.theta + wrapped(*goal.theta - start.theta));
+  } else {
+    for (const double degrees : kAngles) {
+      collector.add_angle(start.theta + degrees * kPi / 180.0);
+    }
+  }
+  return collector.sorted();
+}
+
+double roll_needed(const Goal& goal, double psi) {
+  if (!goal.psi) return 0.0;
+  const double left = wrapped(*goal.psi - psi);
+  const double tolerance =
+      goal.test == GoalTest::kWeightedSum
+          ? 0.5 * goal.position_tolerance / goal.characteristic_length
+          : goal.angle_tolerance;
+  return std::abs(left) <= tolerance ? 0.0 : left;
+}
+
+Goal planar_goal(const Goal& goal) {
+  Goal planar = goal;
+  planar.psi.reset();
+  if (goal.psi && goal.test == GoalTest::kWeightedSum) planar.position_tolerance *= 0.5;
+  return planar;
+}
+
+FlatState flat_state(const Grasp& grasp) {
+  return {finger_in_object(grasp.X_HO), grasp.X_HO.theta};
+}
+
+Grasp grasp_of(const FlatState& state, double psi) {
+  return {pose_from_finger(state.p_OF, state.theta), psi};
+}
+
+}  // namespace prehensile

@@ -1,0 +1,53 @@
+/// Goal sets: a goal may fix some coordinates only, has tolerances, and counts angles by
+/// whole turns. Internal to the planner.
+#pragma once
+
+#include <array>
+
+#include "planner/planner.h"
+#include "planner/steering.h"
+
+namespace prehensile {
+
+/// How far a grasp is from a goal, coordinate by coordinate; 0 where the goal leaves the
+/// coordinate free.
+struct GoalError {
+  double x = 0.0;      ///< [m], >= 0
+  double y = 0.0;      ///< [m], >= 0
+  double theta = 0.0;  ///< [rad], >= 0, to the nearest whole turn
+  double psi = 0.0;    ///< [rad], >= 0, to the nearest whole turn
+};
+GoalError goal_error(const Goal& goal, const Grasp& grasp);
+
+/// A place of the finger axis at which the goal is met, with the angles that meet it
+/// there: the nearest to the start first, then one turn more to either side.
+struct GoalPlace {
+  Vec2 p_OF = Vec2::Zero();
+  int count = 0;
+  std::array<double, 3> theta{};
+};
+
+/// Members of a goal set, nearest to the start first. A fixed coordinate takes its exact
+/// value; a free one keeps that of the start first, then steps through a fixed grid.
+struct GoalPlaces {
+  static constexpr int kCapacity = 84;
+  int count = 0;
+  std::array<GoalPlace, kCapacity> places;
+};
+GoalPlaces goal_places(const Model& model, const Goal& goal,
+                       const FlatState& start) noexcept;
+
+/// The roll that is left from `psi` to the goal [rad], in (-pi, pi]; 0 if the goal does
+/// not fix it, or is met within its tolerance (half of a tolerance shared with the
+/// place).
+double roll_needed(const Goal& goal, double psi);
+
+/// The goal in the pad plane: without the roll angle, and with half of a shared
+/// tolerance.
+Goal planar_goal(const Goal& goal);
+
+/// The planner's state of a grasp, and back.
+FlatState flat_state(const Grasp& grasp);
+Grasp grasp_of(const FlatState& state, double psi);
+
+}  // namespace prehensile

@@ -1,0 +1,234 @@
+#include "planner/label_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+namespace prehensile {
+namespace {
+
+constexpr double kBucket = 0.3;       // [rad]
+constexpr double kMostRotation = 15;  // [rad] to either side that buckets tell apart
+constexpr int kBuckets = 100;
+constexpr std::size_t kMostLabels = 200'000;
+
+/// One interval of one leg between two nodes.
+struct Edge {
+  int to = -1;
+  double lo = 0.0, hi = 0.0;  ///< c dtheta that the leg can produce [m]
+  double travel = 0.0;        ///< least path length in the flat space [m]
+};
+
+struct Label {
+  double lo = 0.0, hi = 0.0;  ///< c dtheta produced so far [m]
+  double cost = 0.0;          ///< lower bound of J so far
+  int node = -1, contact = -1, parent = -1, depth = 0;
+};
+
+struct QueueEntry {
+  double estimate;
+  int label;
+  bool operator<(const QueueEntry& other) const {  // priority_queue pops the greatest
+    return estimate != other.estimate ? estimate > other.estimate : label > other.label;
+  }
+};
+
+class LabelSearch {
+ public:
+  LabelSearch(const SearchModel& search, const std::vector<Vec2>& nodes,
+              const FlatState& start, const GoalPlaces& goals, const Limits& limits,
+              Work& work)
+      : search_(search),
+        nodes_(nodes),
+        start_(start),
+        goals_(goals),
+        limits_(limits),
+        work_(work),
+        contacts_(static_cast<int>(search.contacts.size())) {
+    nodes_.push_back(start.p_OF);
+    rows_.resize(nodes_.size() * contacts_);
+    row_known_.resize(nodes_.size() * contacts_, 0);
+    buckets_.assign(nodes_.size() * contacts_ * kBuckets, -1);
+    for (const Vec2& node : nodes_) rest_.push_back(least_rest(node));
+  }
+
+  std::optional<FoundChain> run() {
+    push({0.0, 0.0, 0.0, static_cast<int>(nodes_.size()) - 1, -1, -1, 0});
+    while (!queue_.empty() && !limits_.reached() && labels_.size() < kMostLabels) {
+      const QueueEntry next = queue_.top();
+      queue_.pop();
+      if (best_ && next.estimate >= best_->chain.cost) break;
+      if (!alive(next.label)) continue;
+      try_goals(next.label);
+      if (labels_[next.label].depth < Chain::kMaxLegs - 1) expand(next.label);
+    }
+    return best_;
+  }
+
+ private:
+  double least_rest(const Vec2& node) const {
+    double rest = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < goals_.count; ++i) {
+      rest = std::min(rest, (goals_.places[i].p_OF - node).norm());
+    }
+    return rest / search_.model->L;
+  }
+
+  /// The start is the last node.
+  Stop stop_at(int node) const {
+    return {nodes_[node], node + 1 == static_cast<int>(nodes_.size())};
+  }
+
+  void push(const Label& label) {
+    queue_.push({label.cost + rest_[label.node], static_cast<int>(labels_.size())});
+    labels_.push_back(label);
+  }
+
+  int* buckets_of(const Label& label) {
+    return &buckets_[(label.node * contacts_ + label.contact) * kBuckets];
+  }
+
+  std::pair<int, int> bucket_range(const Label& label) const {
+    const auto bucket = [&](double c_theta) {
+      const double theta =
+          std::clamp(c_theta / search_.model->c, -kMostRotation, kMostRotation - 1e-9);
+      return static_cast<int>((theta + kMostRotation) / kBucket);
+    };
+    return {bucket(label.lo), bucket(label.hi)};
+  }
+
+  bool alive(int index) {
+    const Label& label = labels_[index];
+    if (label.contact < 0) return true;
+    const int* buckets = buckets_of(label);
+    const auto [low, high] = bucket_range(label);
+    for (int b = low; b <= high; ++b) {
+      if (buckets[b] == index) return true;
+    }
+    return false;
+  }
+
+  /// Keeps the label if it is the cheapest for one of its buckets.
+  void offer(const Label& label) {
+    int* buckets = buckets_of(label);
+    const auto [low, high] = bucket_range(label);
+    bool improves = false;
+    for (int b = low; b <= high; ++b) {
+      if (buckets[b] >= 0 && labels_[buckets[b]].cost <= label.cost) continue;
+      buckets[b] = static_cast<int>(labels_.size());
+      improves = true;
+    }
+    if (improves) push(label);
+  }
+
+  const std::vector<Edge>& edges(int node, int contact) {
+    const int row = node * contacts_ + contact;
+    if (!row_known_[row]) {
+      row_known_[row] = 1;
+      for (int to = 0; to + 1 < static_cast<int>(nodes_.size()); ++to) {
+        Leg leg;
+        if (to == node ||
+            !make_leg(search_, contact, stop_at(node), stop_at(to), work_, leg)) {
+          continue;
+        }
+        append_edges(leg, to, rows_[row]);
+      }
+    }
+    return rows_[row];
+  }
+
+  static void append_edges(const Leg& leg, int to, std::vector<Edge>& edges) {
+    for (int i = 0; i < leg.kappas.count; ++i) {
+      const auto [lo, hi] = leg.kappas.intervals[i];
+      const double least = std::clamp(0.0, lo, hi);
+      edges.push_back({to, leg.length * lo, leg.length * hi,
+                       leg.length * std::sqrt(1.0 + least * least)});
+    }
+  }
+
+  double cost_after(const Label& label, int contact, double travel) const {
+    return label.cost + (contact != label.contact ? 1.0 : 0.0) +
+           travel / search_.model->L;
+  }
+
+  void expand(int index) {
+    for (int contact = 0; contact < contacts_; ++contact) {
+      const Label label = labels_[index];  // a copy: labels_ grows
+      for (const Edge& edge : edges(label.node, contact)) {
+        const double cost = cost_after(label, contact, edge.travel);
+        if (best_ && cost + rest_[edge.to] >= best_->chain.cost) continue;
+        offer({label.lo + edge.lo, label.hi + edge.hi, cost, edge.to, contact, index,
+               label.depth + 1});
+      }
+    }
+  }
+
+  void try_goals(int index) {
+    const Label label = labels_[index];
+    for (int place = 0; place < goals_.count; ++place) {
+      for (int contact = 0; contact < contacts_; ++contact) {
+        Leg leg;
+        if (make_leg(search_, contact, stop_at(label.node),
+                     {goals_.places[place].p_OF, true}, work_, leg)) {
+          try_last_leg(label, index, leg, place);
+        }
+      }
+    }
+  }
+
+  void try_last_leg(const Label& label, int index, const Leg& leg, int place) {
+    const GoalPlace& goal = goals_.places[place];
+    std::vector<Edge> ends;
+    append_edges(leg, -1, ends);
+    for (int angle = 0; angle < goal.count; ++angle) {
+      const double wanted = search_.model->c * (goal.theta[angle] - start_.theta);
+      for (const Edge& end : ends) {
+        if (wanted < label.lo + end.lo || wanted > label.hi + end.hi) continue;
+        const double cost = cost_after(label, leg.contact, end.travel);
+        if (!best_ || cost < best_->chain.cost) try_chain(index, leg, place, angle);
+      }
+    }
+  }
+
+  void try_chain(int index, const Leg& last, int place, int angle) {
+    scratch_.count = labels_[index].depth + 1;
+    scratch_.legs[scratch_.count - 1] = last;
+    for (int i = index; labels_[i].parent >= 0; i = labels_[i].parent) {
+      const Label& label = labels_[i];
+      make_leg(search_, label.contact, stop_at(labels_[label.parent].node),
+               stop_at(label.node), work_, scratch_.legs[label.depth - 1]);
+    }
+    const double dtheta = goals_.places[place].theta[angle] - start_.theta;
+    if (!solve_chain(search_, dtheta, scratch_)) return;
+    if (best_ && scratch_.cost >= best_->chain.cost) return;
+    if (chain_slack(search_, scratch_, start_.theta, work_) < -kStickTolerance) return;
+    best_ = {scratch_, place, angle};
+  }
+
+  const SearchModel& search_;
+  std::vector<Vec2> nodes_;
+  const FlatState& start_;
+  const GoalPlaces& goals_;
+  const Limits& limits_;
+  Work& work_;
+  int contacts_;
+  std::vector<double> rest_;
+  std::vector<std::vector<Edge>> rows_;
+  std::vector<char> row_known_;
+  std::vector<int> buckets_;
+  std::vector<Label> labels_;
+  std::priority_queue<QueueEntry> queue_;
+  Chain scratch_;
+  std::optional<FoundChain> best_;
+};
+
+}  // namespace
+
+std::optional<FoundChain> search_labels(const SearchModel& search,
+                                        const std::vector<Vec2>& nodes,
+                                        const FlatState& start, const GoalPlaces& goals,
+                                        const Limits& limits, Work& work) {
+  return LabelSearch(search, nodes, start, goals, limits, work).run();
+}
+
+}  // namespace prehensile

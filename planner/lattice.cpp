@@ -1,0 +1,91 @@
+#include "planner/lattice.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace prehensile {
+namespace {
+
+bool held_by_some(const SearchModel& search, const Vec2& p_OF) {
+  return std::any_of(
+      search.contacts.begin(), search.contacts.end(), [&](const SearchContact& contact) {
+        const Vec2& g_O = search.model->contacts[contact.contact].g_O;
+        return holding_slack(*search.model, p_OF, g_O, search.margin) > 0.0;
+      });
+}
+
+/// Legs between one fixed place and every node, by contact: empty kappas where none.
+class LegTable {
+ public:
+  /// `place`: start or goal; `outward`: from the place to the nodes.
+  LegTable(const SearchModel& search, const std::vector<Vec2>& nodes, const Vec2& place,
+           bool outward, Work& work)
+      : contacts_(search.contacts.size()), legs_(contacts_ * nodes.size()) {
+    for (std::size_t node = 0; node < nodes.size(); ++node) {
+      for (std::size_t contact = 0; contact < contacts_; ++contact) {
+        Leg& leg = legs_[node * contacts_ + contact];
+        const Stop end{place, true};
+        const Stop way_point{nodes[node]};
+        const Stop& from = outward ? end : way_point;
+        const Stop& to = outward ? way_point : end;
+        if (!make_leg(search, static_cast<int>(contact), from, to, work, leg)) {
+          leg.contact = -1;
+        }
+      }
+    }
+  }
+
+  const Leg& at(std::size_t node, std::size_t contact) const {
+    return legs_[node * contacts_ + contact];
+  }
+
+ private:
+  std::size_t contacts_;
+  std::vector<Leg> legs_;
+};
+
+}  // namespace
+
+std::vector<Vec2> lattice_nodes(const SearchModel& search, int wanted) {
+  const std::vector<Vec2>& outline = search.model->outline;
+  const double step = std::sqrt(properties_of(outline).area / wanted);
+  Vec2 low = outline[0];
+  Vec2 high = outline[0];
+  for (const Vec2& vertex : outline) {
+    low = low.cwiseMin(vertex);
+    high = high.cwiseMax(vertex);
+  }
+  const Vec2 count = ((high - low) / step).array().floor();
+  const Vec2 first = 0.5 * (low + high - step * count);
+  std::vector<Vec2> nodes;
+  for (int i = 0; i <= static_cast<int>(count.x()); ++i) {
+    for (int j = 0; j <= static_cast<int>(count.y()); ++j) {
+      const Vec2 p_OF = first + step * Vec2(i, j);
+      if (depth_inside(outline, p_OF) >= 0.25 * step && held_by_some(search, p_OF)) {
+        nodes.push_back(p_OF);
+      }
+    }
+  }
+  return nodes;
+}
+
+void add_nodes(const SearchModel& search, const std::vector<Vec2>& nodes,
+               const FlatState& start, const GoalPlaces& goals, Work& work,
+               BestWayPoints& best) {
+  const LegTable out(search, nodes, start.p_OF, true, work);
+  const std::size_t contacts = search.contacts.size();
+  Chain chain;
+  for (int place = 0; place < goals.count && !work.spent(); ++place) {
+    const LegTable in(search, nodes, goals.places[place].p_OF, false, work);
+    for (std::size_t node = 0; node < nodes.size(); ++node) {
+      for (std::size_t i = 0; i < contacts * contacts; ++i) {
+        const Leg& first = out.at(node, i / contacts);
+        const Leg& second = in.at(node, i % contacts);
+        if (first.contact < 0 || second.contact < 0) continue;
+        add_way_point(search, start.theta, goals, place, first, second, chain, best);
+      }
+    }
+  }
+}
+
+}  // namespace prehensile

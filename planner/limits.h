@@ -1,0 +1,34 @@
+/// What ends a search: the work budget, a time limit if one was asked for, a stop flag.
+/// Internal to the planner.
+#pragma once
+
+#include <chrono>
+
+#include "planner/planner.h"
+#include "planner/steering.h"
+
+namespace prehensile {
+
+class Limits {
+ public:
+  Limits(const PlanOptions& options, const Work& work)
+      : options_(options), work_(work), begin_(std::chrono::steady_clock::now()) {}
+
+  bool stopped() const { return options_.stop && options_.stop->load(); }
+
+  /// The clock is read only if there is a time limit: it decides nothing otherwise.
+  bool out_of_time() const {
+    if (options_.time_limit <= 0.0) return false;
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin_;
+    return spent.count() > options_.time_limit;
+  }
+
+  bool reached() const { return work_.spent() || stopped() || out_of_time(); }
+
+ private:
+  const PlanOptions& options_;
+  const Work& work_;
+  std::chrono::steady_clock::time_point begin_;
+};
+
+}  // namespace prehensile

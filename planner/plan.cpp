@@ -1,0 +1,81 @@
+#include "planner/plan.h"
+
+#include <cmath>
+
+namespace prehensile {
+namespace {
+
+/// What has to stay the same for a push to need no new placement of the pusher.
+bool same_placement(const Push& push, const Push& before) {
+  const bool rolls = std::holds_alternative<Roll>(push);
+  if (rolls != std::holds_alternative<Roll>(before)) return false;
+  if (contact_of(push) != contact_of(before)) return false;
+  return rolls || as_linear(push).place == as_linear(before).place;
+}
+
+/// Path length of the finger axis, the turn and the roll in the planner's space [m].
+double travel_of(const Model& model, const Push& push) {
+  if (const auto* roll = std::get_if<Roll>(&push)) return std::abs(roll->travel);
+  const LinearPush linear = as_linear(push);
+  return std::hypot(linear.travel, model.c * linear.turn);
+}
+
+}  // namespace
+
+std::string_view name(PlanStatus status) {
+  switch (status) {
+    case PlanStatus::kNotRun:
+      return "not run";
+    case PlanStatus::kReachedGoal:
+      return "reached goal";
+    case PlanStatus::kNothingToDo:
+      return "nothing to do";
+    case PlanStatus::kInfeasible:
+      return "infeasible";
+    case PlanStatus::kBudgetSpent:
+      return "budget spent";
+    case PlanStatus::kStopped:
+      return "stopped";
+    case PlanStatus::kUnsupported:
+      return "unsupported";
+  }
+  return "unknown";
+}
+
+std::string_view name(Proof::Kind kind) {
+  switch (kind) {
+    case Proof::Kind::kNone:
+      return "none";
+    case Proof::Kind::kGoalOffObject:
+      return "goal off object";
+    case Proof::Kind::kStartFalls:
+      return "start falls";
+    case Proof::Kind::kGoalFalls:
+      return "goal falls";
+    case Proof::Kind::kNoPusher:
+      return "no pusher";
+    case Proof::Kind::kNoRoll:
+      return "no roll";
+    case Proof::Kind::kHalfSpace:
+      return "half space";
+  }
+  return "unknown";
+}
+
+void account(const Model& model, Plan& plan) {
+  constexpr double kSamePusherCost = 0.1;  // of the published planners
+  plan.placements = 0.0;
+  plan.travel = 0.0;
+  plan.published_cost = 0.0;
+  for (std::size_t i = 0; i < plan.pushes.size(); ++i) {
+    const Push& push = plan.pushes[i].push;
+    const Push* before = i > 0 ? &plan.pushes[i - 1].push : nullptr;
+    if (!before || !same_placement(push, *before)) plan.placements += 1.0;
+    const bool same_pusher = before && contact_of(push) == contact_of(*before);
+    plan.published_cost += same_pusher ? kSamePusherCost : 1.0;
+    plan.travel += travel_of(model, push);
+  }
+  plan.cost = plan.placements + plan.travel / model.L;
+}
+
+}  // namespace prehensile

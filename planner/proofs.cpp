@@ -1,0 +1,229 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "mechanics/certificate.h"
+#include "planner/planner.h"
+#include "planner/refuse.h"
+
+namespace prehensile {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// Says why a proof fails; always false.
+bool refuse(std::string* why, const char* text) {
+  if (why) *why = text;
+  return false;
+}
+
+double angle_tolerance(const Goal& goal) {
+  return goal.test == GoalTest::kPerCoordinate
+             ? goal.angle_tolerance
+             : goal.position_tolerance / goal.characteristic_length;
+}
+
+/// Greatest distance of a member of the goal set from a place with the fixed coordinates.
+double place_tolerance(const Goal& goal) {
+  const bool both = goal.x && goal.y && goal.test == GoalTest::kPerCoordinate;
+  return goal.position_tolerance * (both ? std::numbers::sqrt2 : 1.0);
+}
+
+/// True if `holds(theta, half_step)` is true on a grid over every angle of O in H that
+/// the goal set contains; half_step [rad] is how far an angle may be from the grid.
+template <class Test>
+bool for_all_goal_angles(const Goal& goal, const Test& holds) {
+  const double middle = goal.theta.value_or(0.0);
+  const double half_range = goal.theta ? std::min(angle_tolerance(goal), kPi) : kPi;
+  const int steps = 16 + static_cast<int>(3000.0 * half_range);
+  const double half_step = half_range / steps;
+  for (int i = 0; i <= steps; ++i) {
+    if (!holds(middle + half_range * (2.0 * i / steps - 1.0), half_step)) return false;
+  }
+  return true;
+}
+
+bool verify_no_pusher(const Model& model, std::string* why) {
+  if (model.contacts.empty()) return true;
+  return refuse(why, "there is a contact to push at");
+}
+
+/// Whether every place with one fixed coordinate of O in H is off the outline: the
+/// coordinate is linear in p_OF, so its range over the outline is that of the vertices.
+bool coordinate_is_off(const std::vector<Vec2>& outline, double theta, bool is_x,
+                       double wanted, double slack) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const Vec2& vertex : outline) {
+    const Vec2 position = -rotated(theta, vertex);
+    const double value = is_x ? position.x() : position.y();
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  return wanted + slack < low || wanted - slack > high;
+}
+
+bool verify_goal_off_object(const Model& model, std::string* why) {
+  const Goal& goal = *model.scene.goal;
+  double reach = 0.0;
+  for (const Vec2& vertex : model.outline) reach = std::max(reach, vertex.norm());
+  const bool off = for_all_goal_angles(goal, [&](double theta, double half_step) {
+    const double slack = place_tolerance(goal) + 1e-9;
+    if (goal.x && goal.y) {
+      const Vec2 position{*goal.x, *goal.y};
+      const Vec2 p_OF = -rotated(-theta, position);
+      return depth_inside(model.outline, p_OF) < -slack - half_step * position.norm();
+    }
+    const double room = slack + half_step * reach;
+    return (goal.x && coordinate_is_off(model.outline, theta, true, *goal.x, room)) ||
+           (goal.y && coordinate_is_off(model.outline, theta, false, *goal.y, room));
+  });
+  return off || refuse(why, "a pose of the goal has the finger axis on the object");
+}
+
+/// Power that gravity gains over friction in a twist, at least, when the object turns by
+/// up to `turn` about the finger axis and the finger axis moves by up to `shift` in it.
+double falling_power(const Model& model, const PlanarPose& X_HO, const Vec2& g_O,
+                     const PlanarTwist& twist, double shift, double turn) {
+  const PlanarGrasp grasp = grasp_at(model, X_HO, g_O);
+  double friction = 0.0;
+  double reach = 0.0;
+  for (int j = 0; j < grasp.count; ++j) {
+    const Vec2 p{grasp.x[j], grasp.y[j]};
+    friction += grasp.bound[j] * point_velocity(twist, p).norm();
+    reach = std::max(reach, p.norm());
+  }
+  const double weight = model.mass * g_O.norm();
+  const double uncertain = weight * shift + model.F * reach * turn;
+  return grasp.w_g.dot(twist) - friction - std::abs(twist[2]) * uncertain;
+}
+
+/// Whether a contact may roll the object with some grip: a line under a long side that
+/// carries weight. With a loose enough grip any friction of the support suffices.
+bool may_roll_on(const Model& model, const PushContact& contact) {
+  const auto& cylinder = std::get<CylinderShape>(model.scene.object.shape);
+  const Vec2 axis = cylinder.axis == Axis::kX ? Vec2{1.0, 0.0} : Vec2{0.0, 1.0};
+  return std::abs(axis.dot(contact.n)) < 1e-6 && !contact.is_point && contact.mu > 0.0 &&
+         contact.g_O.dot(contact.n) < 0.0;
+}
+
+bool may_roll(const Model& model) {
+  return model.cross_section && std::any_of(model.contacts.begin(), model.contacts.end(),
+                                            [&](const PushContact& contact) {
+                                              return may_roll_on(model, contact);
+                                            });
+}
+
+bool verify_start_falls(const Model& model, const Proof& proof, std::string* why) {
+  if (may_roll(model)) return refuse(why, "a support may carry the object");
+  const double power = falling_power(model, model.scene.start.X_HO, model.scene.g_W,
+                                     proof.twist, 0.0, 0.0);
+  if (power > 0.0) return true;
+  return refuse(why, "in this twist friction takes as much power as gravity gives");
+}
+
+/// Pads that lose no part over an edge are the same at every pose of the goal.
+bool verify_goal_falls(const Model& model, std::string* why) {
+  const Goal& goal = *model.scene.goal;
+  if (!goal.x || !goal.y || !goal.theta) {
+    return refuse(why, "the goal leaves a coordinate free");
+  }
+  if (!model.region.is_fixed_in_hand()) {
+    return refuse(why, "the pads change over the poses of the goal");
+  }
+  if (may_roll(model)) return refuse(why, "a support may carry the object");
+  const PlanarPose X_HO{*goal.x, *goal.y, *goal.theta};
+  for (const PushContact& contact : model.contacts) {
+    PlanarTwist twist = PlanarTwist::Zero();
+    gravity_slack(grasp_at(model, X_HO, contact.g_O), &twist);
+    const double turn = angle_tolerance(goal);
+    const double shift = place_tolerance(goal) + turn * translation(X_HO).norm();
+    if (falling_power(model, X_HO, contact.g_O, twist, shift, turn) <= 0.0) {
+      return refuse(why, "gravity is held at a pose of the goal");
+    }
+  }
+  return !model.contacts.empty() || refuse(why, "there is no contact");
+}
+
+bool verify_no_roll(const Model& model, std::string* why) {
+  const Goal& goal = *model.scene.goal;
+  const double off =
+      goal.psi ? std::abs(wrapped(*goal.psi - model.scene.start.psi)) : 0.0;
+  if (off <= angle_tolerance(goal)) return refuse(why, "the goal asks for no roll");
+  return !may_roll(model) || refuse(why, "a contact may roll the object");
+}
+
+/// Whether the finger axis never moves along `direction` while this contact pushes.
+///
+/// The push force lies in the friction cone, and an isotropic pad's friction points along
+/// the object's motion e. An edge w of the dual cone along which gravity does not help
+/// (w.g >= 0) therefore gives w.e >= 0; the finger axis moves along -e.
+bool moves_away(const PushContact& contact, const Vec2& direction) {
+  const double angle = std::atan(contact.mu) + kIsotropyError;
+  const auto holds = [&](double side) {
+    return (contact.mu * contact.n + side * contact.t).dot(contact.g_O) >= 0.0;
+  };
+  // The border of {e : w.e >= 0} for w = mu n + side t is n turned away from side t.
+  const auto border = [&](double side) { return rotated(-side * angle, contact.n); };
+  const bool plus = holds(1.0);
+  const bool minus = holds(-1.0);
+  if (plus && minus) {
+    return direction.dot(border(1.0)) >= 0.0 && direction.dot(border(-1.0)) >= 0.0;
+  }
+  if (!plus && !minus) return false;
+  const double side = plus ? 1.0 : -1.0;
+  const Vec2 inward = side * perp(border(side));
+  return std::abs(cross(direction, inward)) < 1e-9 && direction.dot(inward) > 0.0;
+}
+
+bool verify_half_space(const Model& model, const Proof& proof, std::string* why) {
+  const Goal& goal = *model.scene.goal;
+  if (!model.region.is_isotropic() || !model.region.is_fixed_in_hand()) {
+    return refuse(why, "the friction of these pads need not point along the motion");
+  }
+  if (!goal.x || !goal.y) return refuse(why, "the goal leaves a coordinate free");
+  if (std::abs(proof.direction.norm() - 1.0) > 1e-6) {
+    return refuse(why, "the direction is not of unit length");
+  }
+  for (const PushContact& contact : model.contacts) {
+    if (!moves_away(contact, proof.direction)) {
+      return refuse(why, "a contact may move the finger axis along the direction");
+    }
+  }
+  const Vec2 position{*goal.x, *goal.y};
+  const Vec2 start = finger_in_object(model.scene.start.X_HO);
+  const bool beyond = for_all_goal_angles(goal, [&](double theta, double half_step) {
+    const Vec2 d = -rotated(-theta, position) - start;
+    const double slack = place_tolerance(goal) + half_step * position.norm() + 1e-9;
+    return d.dot(proof.direction) > slack;
+  });
+  return beyond || refuse(why, "a pose of the goal is not beyond the half-plane");
+}
+
+}  // namespace
+
+bool verify(const Model& model, const Proof& proof, std::string* why) {
+  if (!model.scene.goal) return refuse(why, "the scene states no goal");
+  if (reaches(*model.scene.goal, model.scene.start)) {
+    return refuse(why, "the start is a goal");
+  }
+  switch (proof.kind) {
+    case Proof::Kind::kGoalOffObject:
+      return verify_goal_off_object(model, why);
+    case Proof::Kind::kStartFalls:
+      return verify_start_falls(model, proof, why);
+    case Proof::Kind::kGoalFalls:
+      return verify_goal_falls(model, why);
+    case Proof::Kind::kNoPusher:
+      return verify_no_pusher(model, why);
+    case Proof::Kind::kNoRoll:
+      return verify_no_roll(model, why);
+    case Proof::Kind::kHalfSpace:
+      return verify_half_space(model, proof, why);
+    case Proof::Kind::kNone:
+      break;
+  }
+  return refuse(why, "there is no proof");
+}
+
+}  // namespace prehensile

@@ -1,0 +1,38 @@
+/// Our own push planner: exact stages from the closed-form direct push to a search over a
+/// lattice. Knows nothing of OMPL.
+///
+/// Source: the exact steering of this library over the flat space (p_OF, c theta);
+/// compare the motion-cone planners of Chavan-Dafle, Holladay and Rodriguez (2018, 2020).
+#pragma once
+
+#include <optional>
+
+#include "planner/frame.h"
+#include "planner/goal.h"
+
+namespace prehensile {
+
+/// Plans from `start` to `goal`, in order of effort: one push; two pushes through a
+/// crossing of cone lines; two pushes through a lattice node; a best-first search over
+/// the lattice. Every push of the answer sticks with the real pad over the margin box of
+/// `search`.
+///
+/// Status: kReachedGoal (pushes with start and end poses; forces and certificates still
+/// unset), kBudgetSpent, kStopped, kUnsupported (a roll is wanted and none is possible).
+/// The stage of the direct push uses no heap.
+Plan search_pushes(const SearchModel& search, const Grasp& start, const Goal& goal,
+                   const PlanOptions& options, Work& work);
+
+/// The shortest single push to a place of the goal set, by the contact with the most
+/// slack. No heap.
+std::optional<Move> direct_push(const SearchModel& search, const FlatState& start,
+                                const GoalPlaces& goals, Work& work) noexcept;
+
+/// A plan without pushes for this question: names, margin, seed, start.
+Plan blank_plan(const SearchModel& search, const Grasp& start,
+                const PlanOptions& options);
+
+/// Appends the push of a move, from where the plan has come.
+void append_move(const SearchModel& search, const Move& move, Plan& plan);
+
+}  // namespace prehensile

@@ -1,0 +1,91 @@
+#include "planner/refuse.h"
+
+#include <array>
+
+#include "mechanics/certificate.h"
+#include "planner/planner.h"
+
+namespace prehensile {
+namespace {
+
+std::string sentence(Proof::Kind kind) {
+  switch (kind) {
+    case Proof::Kind::kGoalOffObject:
+      return "at every pose of the goal the finger axis is off the object";
+    case Proof::Kind::kStartFalls:
+      return "at the start the grasp does not hold the object against gravity";
+    case Proof::Kind::kGoalFalls:
+      return "at the goal the grasp does not hold the object against gravity, whatever "
+             "pusher is near";
+    case Proof::Kind::kNoPusher:
+      return "no pusher can touch any face of the object";
+    case Proof::Kind::kNoRoll:
+      return "the goal fixes the roll angle and no pusher can roll the object";
+    case Proof::Kind::kHalfSpace:
+      return "every possible push moves the finger axis into a half-plane that does not "
+             "contain the goal";
+    case Proof::Kind::kNone:
+      break;
+  }
+  return {};
+}
+
+Proof make_proof(Proof::Kind kind) { return {.kind = kind, .text = sentence(kind)}; }
+
+/// The twist with which gravity gains most over friction at a pose.
+Proof falling_proof(const Model& model, Proof::Kind kind, const PlanarPose& X_HO,
+                    const Vec2& g_O) {
+  Proof proof = make_proof(kind);
+  const PlanarGrasp grasp = grasp_at(model, X_HO, g_O);
+  if (grasp.count > 0) gravity_slack(grasp, &proof.twist);
+  return proof;
+}
+
+/// Normals of half-planes that may contain all motions e of the object: those along the
+/// borders of the contacts' cones of motion, and the faces' own.
+std::vector<Vec2> candidate_directions(const Model& model) {
+  std::vector<Vec2> directions;
+  for (const PushContact& contact : model.contacts) {
+    const double angle = std::atan(contact.mu) + kIsotropyError;
+    for (const double side : {1.0, -1.0}) {
+      directions.push_back(side * perp(rotated(-side * angle, contact.n)));
+    }
+    directions.push_back(contact.n);
+  }
+  return directions;
+}
+
+bool accept(const Model& model, const Proof& candidate, Proof& proof) {
+  if (!verify(model, candidate)) return false;
+  proof = candidate;
+  return true;
+}
+
+}  // namespace
+
+Proof find_proof(const Model& model) {
+  Proof proof;
+  if (!model.scene.goal) return proof;
+  const Goal& goal = *model.scene.goal;
+  using Kind = Proof::Kind;
+  for (const Kind kind : {Kind::kNoPusher, Kind::kGoalOffObject, Kind::kNoRoll}) {
+    if (accept(model, make_proof(kind), proof)) return proof;
+  }
+  const Proof start =
+      falling_proof(model, Kind::kStartFalls, model.scene.start.X_HO, model.scene.g_W);
+  if (accept(model, start, proof)) return proof;
+  if (goal.x && goal.y && goal.theta && !model.contacts.empty()) {
+    const PlanarPose X_HO{*goal.x, *goal.y, *goal.theta};
+    const Proof end =
+        falling_proof(model, Kind::kGoalFalls, X_HO, model.contacts.front().g_O);
+    if (accept(model, end, proof)) return proof;
+  }
+  for (const Vec2& direction : candidate_directions(model)) {
+    Proof half_space = make_proof(Kind::kHalfSpace);
+    half_space.direction = direction;
+    if (accept(model, half_space, proof)) return proof;
+  }
+  return proof;
+}
+
+}  // namespace prehensile

@@ -1,0 +1,171 @@
+#include "planner/replay.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/bounds.h"
+#include "planner/exact_check.h"
+#include "planner/planner.h"
+
+namespace prehensile {
+namespace {
+
+constexpr double kForceTolerance = 0.01;  // relative
+constexpr double kCostTolerance = 1e-6;   // relative; the plan file rounds nothing
+
+double position_error(const Grasp& a, const Grasp& b) {
+  return std::hypot(a.X_HO.x - b.X_HO.x, a.X_HO.y - b.X_HO.y);
+}
+
+double angle_error(const Grasp& a, const Grasp& b) {
+  return std::max(std::abs(a.X_HO.theta - b.X_HO.theta), std::abs(a.psi - b.psi));
+}
+
+bool same_grasp(const Grasp& a, const Grasp& b, const ReplayOptions& options) {
+  return position_error(a, b) <= options.position_tolerance &&
+         angle_error(a, b) <= options.angle_tolerance;
+}
+
+bool is_finite(const Grasp& grasp) {
+  return std::isfinite(grasp.X_HO.x) && std::isfinite(grasp.X_HO.y) &&
+         std::isfinite(grasp.X_HO.theta) && std::isfinite(grasp.psi);
+}
+
+bool is_finite(const Push& push) {
+  if (const auto* roll = std::get_if<Roll>(&push)) return std::isfinite(roll->travel);
+  const LinearPush linear = as_linear(push);
+  const bool finite = std::isfinite(linear.place) && linear.e.allFinite() &&
+                      std::isfinite(linear.travel) && std::isfinite(linear.turn);
+  return finite && std::abs(linear.e.norm() - 1.0) <= 1e-6 && linear.travel >= 0.0;
+}
+
+/// What keeps a push from being replayed at all, or an empty text.
+std::string unusable(const Model& model, const PlannedPush& planned) {
+  const int contact = contact_of(planned.push);
+  if (contact < 0 || contact >= static_cast<int>(model.contacts.size())) {
+    return "names a contact that the scene does not have";
+  }
+  if (!is_finite(planned.push)) return "is not a finite push along a unit direction";
+  if (!is_finite(planned.start) || !is_finite(planned.end)) {
+    return "has a pose that is not finite";
+  }
+  return {};
+}
+
+std::string disagreement(const ReplayedPush& replayed, const ReplayOptions& options) {
+  const Transition& done = replayed.transition;
+  if (!done.completed()) {
+    return std::string(name(done.status)) +
+           (done.reason.empty() ? "" : ": " + std::string(done.reason));
+  }
+  if (!(done.worst_certificate <= options.transition.certificate_tolerance)) {
+    return "an instant fails its certificate";
+  }
+  if (!(replayed.position_error <= options.position_tolerance &&
+        replayed.angle_error <= options.angle_tolerance)) {
+    return "the object ends elsewhere";
+  }
+  if (!(replayed.force_error <= kForceTolerance)) return "the push force differs";
+  if (!(replayed.slack >= -kStickTolerance)) {
+    return "it slips within the margin of the plan";
+  }
+  return {};
+}
+
+ReplayedPush replay_push(const Model& model, const Margin& margin, const Grasp& start,
+                         const PlannedPush& planned, const ReplayOptions& options) {
+  ReplayedPush replayed;
+  replayed.why = unusable(model, planned);
+  if (!replayed.why.empty()) return replayed;
+  replayed.transition = apply(model, start, planned.push, options.transition);
+  const Transition& done = replayed.transition;
+  replayed.position_error = position_error(done.end, planned.end);
+  replayed.angle_error = angle_error(done.end, planned.end);
+  replayed.force_error =
+      std::abs(done.max_push_force - planned.push_force) / done.max_push_force;
+  replayed.slack = push_slack(model, start, planned.push, margin);
+  replayed.why = disagreement(replayed, options);
+  replayed.agrees = replayed.why.empty();
+  return replayed;
+}
+
+bool margin_is_sound(const Margin& margin) {
+  return margin.friction >= 0.0 && margin.force >= 0.0 && margin.torque_radius >= 0.0 &&
+         margin.place >= 0.0 && margin.centre_of_mass >= 0.0;
+}
+
+bool agrees(double stated, double computed) {
+  return std::abs(stated - computed) <= kCostTolerance * std::max(1.0, computed);
+}
+
+/// S, T, J and the bound counted again, T from the poses instead of the pushes.
+bool costs_are_right(const Model& model, const Plan& plan) {
+  Plan counted;
+  counted.pushes = plan.pushes;
+  account(model, counted);
+  double travel = 0.0;
+  for (const PlannedPush& push : plan.pushes) {
+    const Vec2 d = finger_in_object(push.end.X_HO) - finger_in_object(push.start.X_HO);
+    const double turn = model.c * (push.end.X_HO.theta - push.start.X_HO.theta);
+    const double radius = model.cross_section ? model.cross_section->radius : 0.0;
+    const double roll = radius * (push.end.psi - push.start.psi);
+    travel += std::hypot(d.norm(), turn, roll);
+  }
+  return agrees(plan.placements, counted.placements) && agrees(plan.travel, travel) &&
+         agrees(plan.cost, plan.placements + travel / model.L) &&
+         agrees(plan.published_cost, counted.published_cost) &&
+         agrees(plan.lower_bound,
+                lower_bound(model, model.scene.start, *model.scene.goal));
+}
+
+bool poses_connect(const Plan& plan, const ReplayOptions& options) {
+  for (std::size_t i = 1; i < plan.pushes.size(); ++i) {
+    if (!same_grasp(plan.pushes[i].start, plan.pushes[i - 1].end, options)) return false;
+  }
+  return true;
+}
+
+std::string first_disagreement(const Plan& plan, const Replay& replay) {
+  if (!plan.usable()) return "the plan does not claim to reach its goal";
+  if (!margin_is_sound(plan.margin)) return "the margin is not a box of uncertainty";
+  if (!replay.starts_right) return "the plan does not start at the start of the scene";
+  if (!replay.connected) return "a push does not start where the one before ended";
+  for (std::size_t i = 0; i < replay.pushes.size(); ++i) {
+    if (!replay.pushes[i].agrees) {
+      return "push " + std::to_string(i + 1) + ": " + replay.pushes[i].why;
+    }
+  }
+  if (replay.pushes.size() < plan.pushes.size()) return "a push cannot be replayed";
+  if (!replay.reaches_goal) return "the object does not end at the goal";
+  if (!replay.costs_right) return "the costs are not those of the pushes";
+  return {};
+}
+
+}  // namespace
+
+Replay replay(const Model& model, const Plan& plan, const ReplayOptions& options) {
+  Replay result;
+  const Grasp& start = model.scene.start;
+  const Grasp& first = plan.pushes.empty() ? plan.start : plan.pushes.front().start;
+  result.starts_right =
+      same_grasp(plan.start, start, options) && same_grasp(first, start, options);
+  result.connected = poses_connect(plan, options);
+  result.end = start;
+  for (const PlannedPush& planned : plan.pushes) {
+    result.pushes.push_back(
+        replay_push(model, plan.margin, result.end, planned, options));
+    const ReplayedPush& replayed = result.pushes.back();
+    result.instants += replayed.transition.instants;
+    if (!replayed.transition.completed()) break;
+    result.end = replayed.transition.end;
+  }
+  if (model.scene.goal) {
+    result.reaches_goal = reaches(*model.scene.goal, result.end);
+    result.costs_right = costs_are_right(model, plan);
+  }
+  result.why = first_disagreement(plan, result);
+  result.agrees = result.why.empty();
+  return result;
+}
+
+}  // namespace prehensile

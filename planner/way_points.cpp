@@ -1,0 +1,109 @@
+#include "planner/way_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace prehensile {
+namespace {
+
+/// Directions in which the finger axis may leave (or reach) a place, as unit e of the
+/// object's motion.
+struct Directions {
+  int count = 0;
+  std::array<Vec2, 5> e;
+};
+
+/// Share of the friction angle that counts as the edge: on the edge itself rounding
+/// decides.
+constexpr double kNearEdge = 0.98;
+
+Directions promising_directions(const SearchModel& search, int contact,
+                                const Vec2& p_OF) {
+  const StickContact& stick = search.contacts[contact].stick;
+  const double edge =
+      kNearEdge * std::atan(stick.mu * std::max(0.0, 1.0 - search.margin.friction));
+  Directions directions;
+  const auto add_angle = [&](double angle) {
+    directions.e[directions.count++] =
+        std::cos(angle) * stick.n + std::sin(angle) * stick.t;
+  };
+  add_angle(0.0);
+  add_angle(edge);
+  add_angle(-edge);
+  for (const Vec2& end : {stick.a, stick.b}) {
+    const Vec2 away = p_OF - end;
+    const double angle = std::atan2(away.dot(stick.t), away.dot(stick.n));
+    if (std::abs(angle) < edge) add_angle(angle);
+  }
+  return directions;
+}
+
+/// The point start - s e_1 = goal + r e_2 with s, r > 0; false if there is none.
+bool crossing(const Vec2& start, const Vec2& e_1, const Vec2& goal, const Vec2& e_2,
+              Vec2& p_OF) {
+  const double sine = cross(e_1, e_2);
+  if (std::abs(sine) < 1e-3) return false;
+  const Vec2 d = start - goal;
+  const double s = cross(d, e_2) / sine;
+  const double r = cross(d, e_1) / sine;
+  if (s < kShortestLeg || r < kShortestLeg) return false;
+  p_OF = start - s * e_1;
+  return true;
+}
+
+}  // namespace
+
+double BestWayPoints::worst_cost() const {
+  return count_ < kCapacity ? std::numeric_limits<double>::infinity()
+                            : points_[count_ - 1].cost;
+}
+
+void BestWayPoints::add(const WayPoint& point) noexcept {
+  if (!(point.cost < worst_cost())) return;
+  int i = std::min(count_, kCapacity - 1);
+  for (; i > 0 && points_[i - 1].cost > point.cost; --i) points_[i] = points_[i - 1];
+  points_[i] = point;
+  count_ = std::min(count_ + 1, kCapacity);
+}
+
+void add_way_point(const SearchModel& search, double theta_start, const GoalPlaces& goals,
+                   int place, const Leg& first, const Leg& second, Chain& chain,
+                   BestWayPoints& best) noexcept {
+  const double least = 1.0 + (first.contact != second.contact) +
+                       (first.length + second.length) / search.model->L;
+  if (least >= best.worst_cost()) return;
+  chain.count = 2;
+  chain.legs[0] = first;
+  chain.legs[1] = second;
+  const GoalPlace& goal = goals.places[place];
+  for (int angle = 0; angle < goal.count; ++angle) {
+    if (!solve_chain(search, goal.theta[angle] - theta_start, chain)) continue;
+    best.add({chain.cost, first.contact, second.contact, first.to, place, angle});
+  }
+}
+
+void add_crossings(const SearchModel& search, const FlatState& start,
+                   const GoalPlaces& goals, int place, Work& work,
+                   BestWayPoints& best) noexcept {
+  const Vec2& goal = goals.places[place].p_OF;
+  const int contacts = static_cast<int>(search.contacts.size());
+  Chain chain;
+  for (int i = 0; i < contacts; ++i) {
+    const Directions from = promising_directions(search, i, start.p_OF);
+    for (int j = 0; j < contacts; ++j) {
+      const Directions to = promising_directions(search, j, goal);
+      for (int k = 0; k < from.count * to.count; ++k) {
+        Vec2 p_OF;
+        Leg first, second;
+        if (crossing(start.p_OF, from.e[k / to.count], goal, to.e[k % to.count], p_OF) &&
+            make_leg(search, i, {start.p_OF, true}, {p_OF}, work, first) &&
+            make_leg(search, j, {p_OF}, {goal, true}, work, second)) {
+          add_way_point(search, start.theta, goals, place, first, second, chain, best);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace prehensile

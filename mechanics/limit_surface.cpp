@@ -42,8 +42,8 @@ class UnitSphere {
   }
 
   /// On u = (part of u0 at right angles to d) + r d/|d|, power is sqrt(q^2 + r^2) - k r.
-  LowestOnLine lowest(const PlanarTwist& u0, const PlanarTwist& d,
-                      const PlanarWrench& w) const {
+  LowestOnLine lowest(const PlanarTwist& u0, const PlanarTwist& d, const PlanarWrench& w,
+                      const PlanarTwist*) const {
     const PlanarTwist unit = d.normalized();
     const double k = w.dot(unit);
     if (!(std::abs(k) < 1.0)) return {};
@@ -51,30 +51,11 @@ class UnitSphere {
     return {true, across + k * across.norm() / std::sqrt(1.0 - k * k) * unit, {}};
   }
 
-  /// m.(V + s t) = target |V + s t|, with m.t = 1 and |t| = 1: a quadratic in s.
-  int slides(const PlanarTwist& V, const PlanarTwist& along, const Vec2& m, double target,
+  int slides(const PlanarTwist& V, const PlanarTwist& t, const Vec2& m, double target,
              int slip, int capacity, double* roots) const {
-    const double A = m.dot(V.head<2>());
-    const double B = V.dot(along);
-    const double target2 = target * target;
-    const double a = 1.0 - target2;
-    const double b = A - target2 * B;
-    const double c = A * A - target2 * V.squaredNorm();
-    double candidate[2];
-    int candidates = 0;
-    if (std::abs(a) <= 1e-14) {
-      if (b != 0.0) candidate[candidates++] = -0.5 * c / b;
-    } else if (const double discriminant = b * b - a * c; discriminant >= 0.0) {
-      const double q = -(b + std::copysign(std::sqrt(discriminant), b));
-      candidate[candidates++] = q / a;
-      if (q != 0.0) candidate[candidates++] = c / q;
-    }
-    int count = 0;
-    for (int i = 0; i < candidates && count < capacity; ++i) {
-      const double s = candidate[i];
-      const bool same_sign = (A + s) * target >= 0.0;
-      if (s * slip > 0.0 && same_sign) roots[count++] = s;
-    }
+    double found[2];
+    const int count = std::min(capacity, slides_on_sphere(V, t, m, target, slip, found));
+    std::copy_n(found, count, roots);
     return count;
   }
 };

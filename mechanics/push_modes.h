@@ -32,6 +32,7 @@ struct RayExit {
   double lambda = 0.0;
   PlanarTwist u = PlanarTwist::Zero();
   Pivot pivot;
+  int steps = 0;
 };
 
 /// The lowest point of D(u) - w.u on a line of twists.
@@ -39,7 +40,36 @@ struct LowestOnLine {
   bool bounded = false;
   PlanarTwist u = PlanarTwist::Zero();
   Pivot pivot;
+  int steps = 0;
 };
+
+/// Roots s, of the sign of `slip`, of m.f = target where f is the direction of V + s t
+/// (V a twist, t a unit translation, m.t = 1): a quadratic. Exact for the unit sphere and
+/// for pushers that do not turn.
+inline int slides_on_sphere(const PlanarTwist& V, const PlanarTwist& t, const Vec2& m,
+                            double target, int slip, double* roots) {
+  const double A = m.dot(V.head<2>());
+  const double B = V.dot(t);
+  const double target2 = target * target;
+  const double a = 1.0 - target2;
+  const double b = A - target2 * B;
+  const double c = A * A - target2 * V.squaredNorm();
+  double candidate[2];
+  int candidates = 0;
+  if (std::abs(a) <= 1e-14) {
+    if (b != 0.0) candidate[candidates++] = -0.5 * c / b;
+  } else if (const double discriminant = b * b - a * c; discriminant >= 0.0) {
+    const double q = -(b + std::copysign(std::sqrt(discriminant), b));
+    candidate[candidates++] = q / a;
+    if (q != 0.0) candidate[candidates++] = c / q;
+  }
+  int count = 0;
+  for (int i = 0; i < candidates; ++i) {
+    const double s = candidate[i];
+    if (s * slip > 0.0 && (A + s) * target >= 0.0) roots[count++] = s;
+  }
+  return count;
+}
 
 /// A proposal is a motion if nothing is off by more than this, in units of ScaledPush.
 inline constexpr double kJudged = 1e-9;
@@ -60,12 +90,14 @@ class PushModes {
     return stuck(motion);
   }
 
-  bool point_sticks(int i, Motion& motion) const {
+  bool point_sticks(int i, const PlanarTwist* guess, Motion& motion) const {
     motion = Motion{};
     motion.support = static_cast<Motion::Support>(i);
     const Vec2& p = push_.p[i];
-    const LowestOnLine low = body_.lowest(push_.V, {p.y(), -p.x(), 1.0}, push_.w_g);
+    const LowestOnLine low =
+        body_.lowest(push_.V, {p.y(), -p.x(), 1.0}, push_.w_g, guess);
     if (!low.bounded) return false;
+    motion.steps = low.steps;
     motion.u = low.u;
     motion.pivot = low.pivot;
     return stuck(motion);
@@ -83,6 +115,7 @@ class PushModes {
     const double rate = push_.n.dot(point_velocity(exit.u, push_.p[i]));
     const double scale = push_.approach(i) / rate;
     if (!(scale > 0.0) || !std::isfinite(scale)) return false;
+    motion.steps = exit.steps;
     motion.pivot = exit.pivot;
     motion.u = body_.scaled_twist(exit, scale);
     return slid(motion);
@@ -112,7 +145,7 @@ class PushModes {
   /// turn the same way around S, so the side on which the sticking force leaves the
   /// friction cone is the side to which the point slips.
   bool point_moves(int i, Motion& motion) const {
-    if (point_sticks(i, motion)) return true;
+    if (point_sticks(i, nullptr, motion)) return true;
     const double tangential = push_.t.dot(motion.w.head<2>());
     const int slip = tangential > 0.0 ? -1 : 1;
     return point_slips(i, slip, false, nullptr, motion) ||
@@ -154,7 +187,7 @@ class PushModes {
       }
     }
     for (int i = 0; i < push_.count; ++i) {
-      if (point_sticks(i, motion)) keep(motion);
+      if (point_sticks(i, nullptr, motion)) keep(motion);
       for (const int slip : {1, -1}) {
         for (const bool enters : {false, true}) {
           if (point_slips(i, slip, enters, nullptr, motion)) keep(motion);

@@ -56,7 +56,7 @@ bool find_fall(const Body& body, const PlanarWrench& w_g, const PlanarTwist& uns
     const double area = along.squaredNorm();
     if (area <= 1e-24 * w_g.squaredNorm()) continue;
     const PlanarTwist start = (w_g - w_g.dot(e) * e) / area;
-    const LowestOnLine low = body.lowest(start, along, PlanarWrench::Zero());
+    const LowestOnLine low = body.lowest(start, along, PlanarWrench::Zero(), nullptr);
     if (low.bounded && falls(low.u)) return true;
     for (int l = 0; l < k; ++l) {
       const PlanarTwist v = e.cross(cone.edges[l]);

@@ -5,9 +5,6 @@
 namespace prehensile {
 namespace {
 
-/// Smallest approach rate that counts as touching: rounding of the inputs.
-constexpr double kRounding = 1e-13;
-
 /// How far (force, slack) is from 0 <= force _|_ slack >= 0.
 double complementarity_gap(double force, double slack) {
   return std::abs(std::min(force, slack));
@@ -30,7 +27,7 @@ double share_on_line(const ScaledPush& push, Motion& motion) {
   if (std::abs(per_share) <= 1e-300) {
     motion.normal = {normal, 0.0};
     motion.tangential = {tangential, 0.0};
-    return std::abs(moment);
+    return std::abs(moment) / (1.0 + push.p[0].norm());
   }
   const double share = moment / per_share;
   motion.normal = {(1.0 - share) * normal, share * normal};
@@ -38,13 +35,14 @@ double share_on_line(const ScaledPush& push, Motion& motion) {
   return 0.0;
 }
 
+/// The moment about the point is the misfit, as the error of a force at the point.
 double put_on_point(const ScaledPush& push, int i, Motion& motion) {
   const Vec2 f = motion.w.head<2>();
   motion.normal = {0.0, 0.0};
   motion.tangential = {0.0, 0.0};
   motion.normal[i] = push.n.dot(f);
   motion.tangential[i] = push.t.dot(f);
-  return std::abs(motion.w[2] - cross(push.p[i], f));
+  return std::abs(motion.w[2] - cross(push.p[i], f)) / (1.0 + push.p[i].norm());
 }
 
 double distribute(const ScaledPush& push, Motion& motion) {
@@ -133,6 +131,7 @@ void report(const ScaledPush& push, const Motion& motion,
   answer.push_force = answer.w_push.head<2>().norm();
   answer.pusher_count = push.count;
   answer.residual = motion.residual;
+  answer.iterations = motion.steps;
   answer.force_low = motion.force_low * units.force;
   answer.force_high = motion.force_high * units.force;
   const PlanarTwist relative = motion.u - push.V;

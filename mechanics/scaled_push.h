@@ -67,6 +67,7 @@ struct Motion {
   double force_low = kNan;   ///< range of the sum of normal forces
   double force_high = kNan;  ///< if the pivot leaves a choice
   double residual = kNan;    ///< natural map of everything but the pads' own law
+  int steps = 0;             ///< Newton steps of the last problem solved
 };
 
 /// Distributes w over the supporting points and measures how far the motion is from

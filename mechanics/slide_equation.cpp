@@ -1,0 +1,63 @@
+#include "mechanics/slide_equation.h"
+
+#include <cmath>
+
+namespace prehensile {
+namespace {
+
+constexpr double kEnough = 2e-15;
+constexpr int kNewtonSteps = 12;
+constexpr int kBracketSteps = 100;
+constexpr int kGrid = 96;
+
+}  // namespace
+
+SlideEquation::Value SlideEquation::at(double s) const noexcept {
+  const pad_kernels::Curvature here = pad_kernels::curvature(pads, u0 + s * d);
+  const PlanarWrench turned = here.hessian * d;
+  return {m.dot(here.gradient.head<2>()) - target, m.dot(turned.head<2>())};
+}
+
+bool SlideEquation::polish(double& s) const noexcept {
+  for (int step = 0; step < kNewtonSteps; ++step) {
+    const Value value = at(s);
+    if (std::abs(value.gap) <= kEnough) return true;
+    const double next = s - value.gap / value.slope;
+    if (!std::isfinite(next)) return false;
+    if (std::abs(next - s) <= 1e-16 * std::abs(s)) return std::abs(value.gap) <= 1e-12;
+    s = next;
+  }
+  return false;
+}
+
+double SlideEquation::refine(double a, double gap_a, double b) const noexcept {
+  double s = 0.5 * (a + b);
+  for (int step = 0; step < kBracketSteps; ++step) {
+    const Value value = at(s);
+    if (std::abs(value.gap) <= kEnough) break;
+    (value.gap * gap_a > 0.0 ? a : b) = s;
+    const double newton = s - value.gap / value.slope;
+    const bool inside = (newton - a) * (newton - b) < 0.0;
+    const double next = inside ? newton : 0.5 * (a + b);
+    if (next == s || next == a || next == b) break;
+    s = next;
+  }
+  return s;
+}
+
+int SlideEquation::scan(int slip, double scale, int capacity,
+                        double* roots) const noexcept {
+  int count = 0;
+  double a = 0.0;
+  double gap_a = at(0.0).gap;
+  for (int k = 1; k < kGrid && count < capacity; ++k) {
+    const double b = slip * scale * k / static_cast<double>(kGrid - k);
+    const double gap_b = at(b).gap;
+    if (gap_a * gap_b < 0.0) roots[count++] = refine(a, gap_a, b);
+    a = b;
+    gap_a = gap_b;
+  }
+  return count;
+}
+
+}  // namespace prehensile

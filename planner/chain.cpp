@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mechanics/certificate.h"
+
 namespace prehensile {
 namespace {
 
 constexpr int kMaxCombinations = 256;
 constexpr double kMostKappa = 1e4;  // beyond it a leg is a rotation on the spot
+
+/// Slack of gravity above rounding, in units of the friction force.
+constexpr double kFirmlyHeld = 1e-6;
 
 using Intervals = std::array<KappaSet::Interval, Chain::kMaxLegs>;
 
@@ -68,6 +73,27 @@ int points_along(const SearchModel& search, const Move& move) {
   const double steps = std::max((move.to.p_OF - move.from.p_OF).norm() / 2e-3,
                                 std::abs(move.to.theta - move.from.theta) / 0.1);
   return static_cast<int>(std::clamp(std::ceil(steps) + 1.0, 3.0, 24.0));
+}
+
+/// A uniform disc is at most 7 % weaker than the ellipsoid of the same F and c.
+constexpr Margin kDiscBelowEllipsoid{.force = 0.08, .torque_radius = 0.0};
+
+/// Whether the pads alone hold gravity at points along a move; for a whole disc its ends
+/// decide.
+bool pads_hold_gravity(const SearchModel& search, const Move& move, int points) {
+  const Model& model = *search.model;
+  const Vec2& g_O = model.contacts[search.contacts[move.contact].contact].g_O;
+  if (g_O.isZero(0.0)) return true;
+  const auto surely = [&](const FlatState& end) {
+    return holding_slack(model, end.p_OF, g_O, kDiscBelowEllipsoid) > 0.0;
+  };
+  if (search.exact_everywhere && surely(move.from) && surely(move.to)) return true;
+  for (int i = 0; i < points; ++i) {
+    const double share = static_cast<double>(i) / (points - 1);
+    const PlanarGrasp grasp = grasp_at(model, pose_along(move.from, move.to, share), g_O);
+    if (!(gravity_slack(grasp) > kFirmlyHeld)) return false;
+  }
+  return true;
 }
 
 bool is_held(const SearchModel& search, int contact, const Stop& stop) {
@@ -146,7 +172,12 @@ Move move_of(const SearchModel& search, const Chain& chain, int leg, double thet
 }
 
 double exact_slack(const SearchModel& search, const Move& move, Work& work) noexcept {
-  return move_slack(search, move, points_along(search, move), work);
+  const int points = points_along(search, move);
+  const double slack = move_slack(search, move, points, work);
+  if (!(slack >= -kStickTolerance)) return slack;
+  return pads_hold_gravity(search, move, points)
+             ? slack
+             : -std::numeric_limits<double>::infinity();
 }
 
 double chain_slack(const SearchModel& search, const Chain& chain, double theta_start,

@@ -85,22 +85,36 @@ PlanarTwist PadFriction::exit_guess(const PlanarWrench& w,
   return u.dot(e) > 0.0 ? u.normalized() : e.normalized();
 }
 
-bool PadFriction::leaves_at_pivot(int j, const PlanarWrench& w, const PlanarWrench& e,
-                                  RayExit& exit) const noexcept {
+/// At a pivot the exit needs one particular force of the pivot. Within its bound, the ray
+/// leaves here; beyond it, the point gives way in the direction of that force, and
+/// `beside` is the twist to which the bend of D at the other points lets it go.
+PadFriction::PivotTest PadFriction::test_pivot(int j, const PlanarWrench& w,
+                                               const PlanarWrench& e) const noexcept {
+  PivotTest test;
   PlanarTwist u = rotation_about(j, 1.0);
   double along = e.dot(u);
-  if (std::abs(along) <= 1e-14 * u.norm()) return false;
+  if (std::abs(along) <= 1e-14 * u.norm()) return test;
   if (along < 0.0) {
     u = -u;
     along = -along;
   }
-  const PlanarWrench rest = resisting_wrench(points(), u) - w;
-  const double lambda = rest.dot(u) / along;
-  const PlanarWrench missing = lambda * e - rest;
+  const Curvature rest = curvature(points(), u);
+  const PlanarWrench resisted = rest.gradient - w;
+  const double lambda = resisted.dot(u) / along;
+  const Vec2 force = (lambda * e - resisted).head<2>();
+  const double size = force.norm();
   const double bound = merged_bound(j);
-  if (missing.head<2>().norm() > bound * (1.0 + 1e-12)) return false;
-  exit = {true, lambda, u, {j, missing.head<2>()}};
-  return true;
+  if (size <= bound * (1.0 + 1e-12)) {
+    test.leaves = true;
+    test.exit = {true, lambda, u, {j, force}};
+    return test;
+  }
+  const Vec2 away = force / size;
+  const double bend = away.dot(rest.hessian.topLeftCorner<2, 2>() * away);
+  const double distance = std::min(1.0, (size - bound) / (bend + 1e-30));
+  test.beside = u + distance * PlanarTwist(away.x(), away.y(), 0.0);
+  test.has_beside = test.beside.dot(e) > 0.0;
+  return test;
 }
 
 RayExit PadFriction::exit_of_point(const PlanarWrench& w,
@@ -134,6 +148,7 @@ RayExit PadFriction::exit(const PlanarWrench& w, const PlanarWrench& direction,
   const bool use_guess = guess != nullptr && guess->dot(e) > 1e-6 * guess->norm();
   const PlanarTwist start = use_guess ? guess->normalized() : exit_guess(w, e);
   const double enough = 1e-15 * (1.0 + w.norm());
+  const double rounding = 1e-14 * (1.0 + w.norm());
   // No exit lies further back than the far side of S.
   const double least = -(w.norm() + 1.0 + reach_);
   int tried = -1;
@@ -142,14 +157,20 @@ RayExit PadFriction::exit(const PlanarWrench& w, const PlanarWrench& direction,
   for (; step < kNewtonSteps; ++step) {
     if (here.gap.norm() <= enough) break;
     if (!(here.lambda >= least)) return {};
-    if (step >= 2) {
-      const int nearest = nearest_to_centre(here.u);
-      if (nearest != tried && leaves_at_pivot(nearest, w, e, exit)) {
+    if (const int nearest = step < 2 ? tried : nearest_to_centre(here.u);
+        nearest != tried) {
+      tried = nearest;
+      const PivotTest test = test_pivot(nearest, w, e);
+      if (test.leaves) {
+        exit = test.exit;
         exit.lambda /= size;
         exit.steps = step;
         return exit;
       }
-      tried = nearest;
+      if (test.has_beside) {
+        const LoadFactor beside(points(), w, e, test.beside.normalized());
+        if (beside.lambda < here.lambda) here = beside;
+      }
     }
     const PlanarTwist stride = newton_step(here);
     const double slope = here.gap.dot(stride) / here.along;
@@ -160,7 +181,8 @@ RayExit PadFriction::exit(const PlanarWrench& w, const PlanarWrench& direction,
       if (!(e.dot(u) > 0.0)) continue;
       const LoadFactor next(points(), w, e, u);
       better = next.lambda <= here.lambda + 1e-4 * share * slope ||
-               next.gap.norm() < 0.5 * here.gap.norm();
+               (next.lambda <= here.lambda + rounding &&
+                next.gap.norm() < 0.5 * here.gap.norm());
       if (better) here = next;
     }
     if (!better) break;

@@ -80,8 +80,14 @@ class PadFriction {
                       LowestOnLine& lowest) const noexcept;
 
   PlanarTwist exit_guess(const PlanarWrench& w, const PlanarWrench& e) const noexcept;
-  bool leaves_at_pivot(int j, const PlanarWrench& w, const PlanarWrench& e,
-                       RayExit& exit) const noexcept;
+  struct PivotTest {
+    bool leaves = false;
+    RayExit exit;
+    bool has_beside = false;
+    PlanarTwist beside;
+  };
+  PivotTest test_pivot(int j, const PlanarWrench& w,
+                       const PlanarWrench& e) const noexcept;
   RayExit exit_of_point(const PlanarWrench& w, const PlanarWrench& e) const noexcept;
   bool clearly_holds(const PlanarWrench& w) const noexcept;
 

@@ -164,6 +164,10 @@ void solve_quasi_static(const Problem& problem, const PlanarSolveOptions& option
       problem.pads, problem.push, follows ? &known : nullptr, options.probe_multiplicity);
   if (verdict.status == InstantStatus::kOutOfIterations) {
     solve_with_newton(problem, Eigen::Matrix3d::Zero(), options, answer);
+    if (verdict.has_evidence && answer.status == InstantStatus::kMoves) {
+      answer.status = InstantStatus::kAmbiguous;
+      answer.evidence = twist_in_hand(problem.push, verdict.evidence);
+    }
     return;
   }
   report(problem.push, verdict, answer);

@@ -88,6 +88,7 @@ bool carried_at_rest(const Body& body, const ScaledPush& push, Motion& motion) {
 }
 
 /// Gravity is more than the pads can hold: the pusher carries the object, or it falls.
+/// Without a status, `evidence` still shows that gravity is not held.
 template <class Body>
 Verdict judge_unheld(const Body& body, const ScaledPush& push,
                      const PlanarTwist& unsupported) {
@@ -113,7 +114,7 @@ Verdict judge_unheld(const Body& body, const ScaledPush& push,
     verdict.status = InstantStatus::kDynamic;
     return verdict;
   }
-  verdict.has_evidence = false;
+  verdict.evidence = unsupported;
   return verdict;
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "mechanics/limit_surface.h"
+#include "mechanics/planar_instant.h"
 #include "mechanics/sticking.h"
 #include "tests/support/random.h"
 
@@ -110,6 +111,25 @@ TEST(StickingInstants, EllipsoidSolverSticksExactlyWhereTheTestSays) {
               count.compared, count.stuck, count.force_error);
   EXPECT_EQ(count.disagree, 0);
   EXPECT_LT(count.force_error, 1e-9);
+  EXPECT_GT(count.compared, cases * 9 / 10);
+  EXPECT_GT(count.stuck, cases / 10);
+}
+
+TEST(StickingInstants, PlanarSolverSticksExactlyWhereTheTestSays) {
+  Random random(2);
+  Count count;
+  const int cases = 5000;
+  for (int i = 0; i < cases; ++i) {
+    const Case c = random_case(random);
+    const StickTest test = exact_stick_test(c.model, c.contact, c.place, c.X_HO, c.e, 1.0,
+                                            c.omega, Margin::none());
+    const PlanarGrasp grasp = grasp_at(c.model, c.X_HO, c.contact.g_O);
+    count.add(test, solve_planar(grasp, c.drive), c.model.F);
+  }
+  std::printf("%d instants with real pads compared, %d stick, force within %.1e F\n",
+              count.compared, count.stuck, count.force_error);
+  EXPECT_EQ(count.disagree, 0);
+  EXPECT_LT(count.force_error, 1e-7);
   EXPECT_GT(count.compared, cases * 9 / 10);
   EXPECT_GT(count.stuck, cases / 10);
 }

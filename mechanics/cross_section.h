@@ -78,8 +78,8 @@ struct CrossSectionInstant {
   double push_force = kNan;  ///< |force of the sheet on the object| [N]
 
   /// Range of the sheet's normal force over all force solutions at this motion [N]; the
-  /// forces above are from its inside. The upper end is infinite if jaw and sheet can
-  /// wedge the object between them.
+  /// forces above are from its middle. The upper end is infinite if jaw and sheet can
+  /// wedge the object between them; the forces above are then from the lower end.
   double sheet_force_low = kNan;
   double sheet_force_high = kNan;
 

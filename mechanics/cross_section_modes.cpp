@@ -177,33 +177,56 @@ CrossSectionForces forces_of(const Balance& balance, const ForceProgram& force,
   return forces;
 }
 
+namespace {
+
+// Least and greatest force of the sheet in one component, with the loads there. Where one
+// end is infinite, its loads are those of the other end.
+struct Extremes {
+  bool solved = false;
+  double low = 0.0;
+  double high = 0.0;
+  LinearProgram::Point low_load{};
+  LinearProgram::Point high_load{};
+
+  bool equal() const { return high - low <= kSameForce; }
+};
+
+Extremes extremes_at_sheet(const ForceProgram& force,
+                           const std::array<double, kEdges>& component) {
+  LinearProgram::Point up{};
+  LinearProgram::Point down{};
+  for (int c = 0; c < force.program.variables; ++c) {
+    if (force.column[c] / 2 != kSheet) continue;
+    up[c] = component[force.column[c]];
+    down[c] = -up[c];
+  }
+  const LinearSolution least = minimise(force.program, up);
+  const LinearSolution greatest = minimise(force.program, down);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const bool no_least = least.status == LinearStatus::kUnbounded;
+  const bool no_greatest = greatest.status == LinearStatus::kUnbounded;
+  return {.solved = least.feasible() && greatest.feasible(),
+          .low = no_least ? -kInfinity : least.value,
+          .high = no_greatest ? kInfinity : -greatest.value,
+          .low_load = no_least ? greatest.x : least.x,
+          .high_load = no_greatest ? least.x : greatest.x};
+}
+
+}  // namespace
+
 ForceRange force_range(const Balance& balance, Modes modes) {
   const ForceProgram force = force_program(balance, modes, balance.demand);
-  ForceRange range;
+  const Extremes normal = extremes_at_sheet(force, balance.normal);
+  const Extremes tangential = extremes_at_sheet(force, balance.tangential);
+  const Extremes& wider = normal.equal() ? tangential : normal;
   LinearProgram::Point middle{};
-  std::array<double, 4> extreme{};  // least and greatest normal, then tangential force
-  for (int e = 0; e < 4; ++e) {
-    const double sign = e % 2 == 0 ? 1.0 : -1.0;
-    LinearProgram::Point cost{};
-    for (int c = 0; c < force.program.variables; ++c) {
-      const int j = force.column[c];
-      if (j / 2 == kSheet)
-        cost[c] = sign * (e < 2 ? balance.normal[j] : balance.tangential[j]);
-    }
-    const LinearSolution solution = minimise(force.program, cost);
-    if (!solution.feasible()) return range;
-    extreme[e] = solution.status == LinearStatus::kUnbounded
-                     ? sign * -std::numeric_limits<double>::infinity()
-                     : sign * solution.value;
-    for (int c = 0; c < force.program.variables; ++c) middle[c] += 0.25 * solution.x[c];
-  }
-  range.solved = true;
-  range.unique =
-      extreme[1] - extreme[0] <= kSameForce && extreme[3] - extreme[2] <= kSameForce;
-  range.sheet_low = std::max(0.0, extreme[0]);
-  range.sheet_high = std::max(0.0, extreme[1]);
-  range.middle = forces_of(balance, force, middle);
-  return range;
+  for (int c = 0; c < force.program.variables; ++c)
+    middle[c] = 0.5 * (wider.low_load[c] + wider.high_load[c]);
+  return {.solved = normal.solved && tangential.solved,
+          .unique = normal.equal() && tangential.equal(),
+          .sheet_low = std::max(0.0, normal.low),
+          .sheet_high = std::max(0.0, normal.high),
+          .middle = forces_of(balance, force, middle)};
 }
 
 }  // namespace prehensile::section

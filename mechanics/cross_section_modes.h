@@ -68,7 +68,7 @@ struct ForceRange {
   bool unique = false;
   double sheet_low = 0.0;
   double sheet_high = 0.0;    ///< may be infinite
-  CrossSectionForces middle;  ///< mean of the extreme solutions
+  CrossSectionForces middle;  ///< mean of the extreme solutions, or the finite one
 };
 ForceRange force_range(const Balance& balance, Modes modes);
 

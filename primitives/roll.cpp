@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mechanics/linear_program.h"
+#include "primitives/push_record.h"
 
 namespace prehensile {
 namespace {
@@ -67,22 +68,6 @@ bool lines_suffice(const Model& model, const PushContact& contact, const Grasp& 
   return find_point(program).feasible();
 }
 
-Transition& stop(Transition& out, TransitionStatus status, std::string_view reason) {
-  out.status = status;
-  out.reason = reason;
-  return out;
-}
-
-Transition& finish(Transition& out) {
-  out.status = TransitionStatus::kCompleted;
-  out.done = 1.0;
-  return out;
-}
-
-void add_event(Transition& out, EventKind kind) {
-  out.events[out.event_count++] = {kind, out.done};
-}
-
 /// The support sticks and the object turns in place between the jaws.
 bool rolls(const CrossSectionModel& section, double sheet_rate,
            const CrossSectionInstant& instant) {
@@ -92,68 +77,76 @@ bool rolls(const CrossSectionModel& section, double sheet_rate,
   return usable(instant.status) && error <= kNegligible * std::abs(sheet_rate);
 }
 
-/// Says why an instant is no roll.
-Transition& stop_at_start(Transition& out, const CrossSectionInstant& instant) {
+/// Why an instant is no roll.
+Obstacle obstacle_of(const CrossSectionInstant& instant) {
   switch (instant.status) {
     case InstantStatus::kAmbiguous:
-      return stop(out, TransitionStatus::kAmbiguous,
-                  "two motions are possible, one of them with the object carried by the "
-                  "fingers and the support unloaded");
+      return {
+          TransitionStatus::kAmbiguous,
+          {},
+          "two motions are possible, as where the fingers alone can carry the object"};
     case InstantStatus::kDynamic:
-      add_event(out, EventKind::kGravityLost);
-      return stop(
-          out, TransitionStatus::kFalls,
-          "the jaws do not hold the object, and gravity pulls it off the support");
+      return {TransitionStatus::kFalls, EventKind::kGravityLost,
+              "the jaws do not hold the object, and gravity pulls it off the support"};
     case InstantStatus::kJammed:
-      return stop(out, TransitionStatus::kJammed,
-                  "the support wedges the object against the fixed jaw");
-    case InstantStatus::kBadInput:
-      return stop(out, TransitionStatus::kRefused, "a number is out of range");
+      return {TransitionStatus::kJammed,
+              {},
+              "the support wedges the object against the fixed jaw"};
     case InstantStatus::kMoves:
     case InstantStatus::kHolds:
     case InstantStatus::kNonuniqueForces:
       break;
+    case InstantStatus::kBadInput:
     case InstantStatus::kNotRun:
     case InstantStatus::kSeparated:
     case InstantStatus::kOutOfIterations:
-      return stop(out, TransitionStatus::kIterationLimit,
-                  "the instant was lost to rounding");
+      return {TransitionStatus::kUncertified, {}, "the instant has no answer"};
   }
-  add_event(out, EventKind::kGuard);
   if (instant.mode[kSheet] == ContactMode::kStick) {
-    return stop(out, TransitionStatus::kLeftGuard,
-                "the support drags the object along and pushes the jaws with it");
+    return {TransitionStatus::kLeftGuard, EventKind::kGuard,
+            "the support drags the object along and pushes the jaws with it"};
   }
-  return stop(out, TransitionStatus::kLeftGuard,
-              "the support slides under the object instead of rolling it: too little "
-              "friction of the support or too much grip");
+  return {
+      TransitionStatus::kLeftGuard, EventKind::kGuard,
+      "the support slides under the object instead of rolling it: too little friction "
+      "of the support or too much grip"};
 }
 
 /// What stays the same along the push.
 struct Constant {
   const Grasp& start;
-  const RollSection& section;
+  double radius;
   double travel;
+  double turn;  ///< [rad] of psi over the whole push
   const CrossSectionInstant& instant;
   double certificate;
 };
 
-double psi_at(const Constant& constant, double s) {
-  return constant.start.psi + s * constant.section.psi_per_travel * constant.travel;
-}
-
-Sample sample_at(const Constant& constant, double radius, double s) {
+Sample sample_at(const Constant& constant, double s) {
   const CrossSectionInstant& instant = constant.instant;
   Sample sample;
   sample.s = s;
-  sample.grasp = {constant.start.X_HO, psi_at(constant, s)};
+  sample.grasp = {constant.start.X_HO, constant.start.psi + s * constant.turn};
   sample.push_force = instant.push_force;
   sample.normal_force = instant.normal_force[kSheet];
   sample.tangential_force = instant.tangential_force[kSheet];
-  sample.slip_rate = instant.v_z + instant.roll_rate * radius - constant.travel;
+  sample.slip_rate = instant.v_z + instant.roll_rate * constant.radius - constant.travel;
   sample.status = instant.status;
   sample.certificate = constant.certificate;
   return sample;
+}
+
+/// Why the roll cannot even begin; empty if it can.
+std::string_view refusal(const RollSection& section, const Grasp& start, const Roll& roll,
+                         const TransitionOptions& options) {
+  if (!section.possible) return section.reason;
+  if (!are_usable(options)) return "an option is out of range";
+  if (!std::isfinite(roll.travel) || !std::isfinite(start.psi))
+    return "a number is not finite";
+  if (!std::isfinite(roll.grip_force) || roll.grip_force < 0.0)
+    return "the grip force is no force";
+  if (roll.travel == 0.0) return "the pusher does not move";
+  return {};
 }
 
 }  // namespace
@@ -189,46 +182,40 @@ RollSection roll_section(const Model& model, int contact_index,
 Transition apply_roll(const Model& model, const Grasp& start, const Roll& roll,
                       const TransitionOptions& options,
                       std::vector<Sample>* trace) noexcept {
-  Transition out;
-  out.end = start;
+  PushRecord record(options.certificate_tolerance, trace);
   const RollSection section = roll_section(model, roll.contact, start);
-  if (!section.possible) return stop(out, TransitionStatus::kRefused, section.reason);
-  if (!std::isfinite(roll.travel))
-    return stop(out, TransitionStatus::kRefused, "the travel is not a finite number");
-  if (!std::isfinite(roll.grip_force) || roll.grip_force < 0.0)
-    return stop(out, TransitionStatus::kRefused, "the grip force is not a finite number");
-  out.error_estimate = 0.0;  // the end is exact
-  if (roll.travel == 0.0) return finish(out);
+  const std::string_view reason = refusal(section, start, roll, options);
+  if (!reason.empty()) {
+    record.stop({TransitionStatus::kRefused, {}, reason}, 0.0);
+    return record.finish(start, 0.0, kNan, 0);
+  }
 
-  CrossSectionModel constants = *model.cross_section;
-  if (roll.grip_force > 0.0) constants.grip_force = roll.grip_force;
+  CrossSectionModel gripped = *model.cross_section;
+  if (roll.grip_force > 0.0) gripped.grip_force = roll.grip_force;
   const PushContact& contact = model.contacts[roll.contact];
   const CrossSectionDrive drive{contact.mu, roll.travel, section.weight};
-  const CrossSectionInstant instant = solve_cross_section(constants, drive);
-  out.instants = 1;
-  out.worst_certificate = cross_section_residual(constants, drive, instant);
-  out.max_push_force = out.min_push_force = instant.push_force;
-  const Constant constant{start, section, roll.travel, instant, out.worst_certificate};
-  if (trace != nullptr) trace->push_back(sample_at(constant, constants.radius, 0.0));
-
-  if (out.worst_certificate > options.certificate_tolerance)
-    return stop(out, TransitionStatus::kUncertified,
-                "the instant failed its certificate");
-  if (!rolls(constants, roll.travel, instant)) return stop_at_start(out, instant);
-  if (!lines_suffice(model, contact, start, instant, section.weight))
-    return stop(out, TransitionStatus::kRefused,
-                "pads and support are too short: the object would tilt or yaw");
-
-  if (trace != nullptr) {
-    const double wanted = std::fmax(1.0, std::ceil(1.0 / options.max_step));
-    const int samples =
-        static_cast<int>(std::fmin(wanted, std::max(1, options.max_steps)));
-    for (int i = 1; i <= samples; ++i)
-      trace->push_back(
-          sample_at(constant, constants.radius, static_cast<double>(i) / samples));
+  const CrossSectionInstant instant = solve_cross_section(gripped, drive);
+  const double certificate = cross_section_residual(gripped, drive, instant);
+  const Constant constant{start,       gripped.radius,
+                          roll.travel, section.psi_per_travel * roll.travel,
+                          instant,     certificate};
+  record.add(sample_at(constant, 0.0));
+  if (!record.stopped() && !rolls(gripped, roll.travel, instant)) {
+    record.stop(obstacle_of(instant), 0.0);
+  } else if (!record.stopped() &&
+             !lines_suffice(model, contact, start, instant, section.weight)) {
+    record.stop({TransitionStatus::kRefused,
+                 {},
+                 "pads and support are too short: the object would tilt or yaw"},
+                0.0);
   }
-  out.end.psi = psi_at(constant, 1.0);
-  return finish(out);
+  if (record.stopped()) return record.finish(start, 0.0, 0.0, 1);
+
+  const int samples =
+      std::min(static_cast<int>(std::ceil(1.0 / options.max_step)), options.max_steps);
+  for (int i = 1; i <= samples; ++i)
+    record.add(sample_at(constant, static_cast<double>(i) / samples));
+  return record.finish(sample_at(constant, 1.0).grasp, 1.0, 0.0, 1);
 }
 
 }  // namespace prehensile

@@ -24,11 +24,6 @@ bool is_finite(const LinearPush& push, const Grasp& start) {
          std::isfinite(start.X_HO.y) && std::isfinite(start.X_HO.theta);
 }
 
-bool are_usable(const TransitionOptions& options) {
-  return options.tolerance > 0.0 && options.max_step > 0.0 && options.max_step <= 1.0 &&
-         options.max_steps > 0 && options.certificate_tolerance > 0.0;
-}
-
 /// Why the push cannot even begin; empty if it can.
 std::string_view refusal(const Model& model, const Grasp& start, const LinearPush& push,
                          const Guard& guard, const TransitionOptions& options) {
@@ -57,6 +52,11 @@ std::string_view refusal(const Model& model, const Grasp& start, const LinearPus
 }
 
 }  // namespace
+
+bool are_usable(const TransitionOptions& options) {
+  return options.tolerance > 0.0 && options.max_step > 0.0 && options.max_step <= 1.0 &&
+         options.max_steps > 0 && options.certificate_tolerance > 0.0;
+}
 
 std::string_view name(TransitionStatus status) {
   switch (status) {

@@ -57,6 +57,9 @@ struct TransitionOptions {
   double certificate_tolerance = 1e-6;
 };
 
+/// Every option is in its range.
+bool are_usable(const TransitionOptions& options);
+
 /// One point of the path.
 struct Sample {
   double s = 0.0;

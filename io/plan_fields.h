@@ -1,0 +1,186 @@
+/// Every field of a plan file, as scene_fields.h does for scenes. SI units and radians
+/// throughout, so that numbers return exactly. Internal to the io layer.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/fields.h"
+#include "planner/plan.h"
+
+namespace prehensile::internal {
+
+inline constexpr int kPlanVersion = 1;
+inline constexpr std::size_t kMostPushes = 10'000;
+
+inline constexpr Bounds kMetres{-1e3, 1e3, "m"};
+inline constexpr Bounds kRadians{-1e3, 1e3, "rad"};
+inline constexpr Bounds kShares{0.0, 10.0, ""};
+inline constexpr Bounds kDistances{0.0, 1e6, "m"};
+inline constexpr Bounds kCosts{0.0, 1e6, ""};
+
+enum class PushKind { kPush, kSlide, kPivot, kRoll };
+inline constexpr std::array<Word<PushKind>, 4> kPushWords = {{{PushKind::kPush, "push"},
+                                                              {PushKind::kSlide, "slide"},
+                                                              {PushKind::kPivot, "pivot"},
+                                                              {PushKind::kRoll, "roll"}}};
+
+/// The enumerators with their names from the planner.
+template <typename T, std::size_t N>
+std::array<Word<T>, N> named(const std::array<T, N>& values) {
+  std::array<Word<T>, N> words;
+  for (std::size_t i = 0; i < N; ++i) words[i] = {values[i], name(values[i])};
+  return words;
+}
+inline const auto kStatusWords = named(
+    std::array{PlanStatus::kNotRun, PlanStatus::kReachedGoal, PlanStatus::kNothingToDo,
+               PlanStatus::kInfeasible, PlanStatus::kBudgetSpent, PlanStatus::kStopped,
+               PlanStatus::kUnsupported});
+inline const auto kProofWords = named(std::array{
+    Proof::Kind::kGoalOffObject, Proof::Kind::kStartFalls, Proof::Kind::kGoalFalls,
+    Proof::Kind::kNoPusher, Proof::Kind::kNoRoll, Proof::Kind::kHalfSpace});
+
+/// A push as the file has it: pusher and face by name.
+struct WrittenPush {
+  PushKind kind = PushKind::kPush;
+  std::string pusher;
+  std::string face;
+  std::optional<double> place;
+  std::optional<Vec2> direction;
+  double travel = 0.0;
+  std::optional<double> turn;
+  std::optional<double> guard_angle;
+  std::optional<double> guard_distance;
+  PlannedPush planned;  // its numbers; the push itself is made from what is above
+};
+
+struct WrittenPlan {
+  std::string scene;
+  std::string scene_digest;
+  Plan plan;  // its pushes and proof are made from the two below
+  std::vector<WrittenPush> pushes;
+  std::optional<Proof> proof;
+  double gap = kNan;
+};
+
+template <typename Fields>
+void visit_grasp(Fields& fields, Grasp& grasp) {
+  fields.number("x", grasp.X_HO.x, kMetres, kRequired, "Of O in H.");
+  fields.number("y", grasp.X_HO.y, kMetres, kRequired, "Of O in H.");
+  fields.number("theta", grasp.X_HO.theta, kRadians, kRequired, "Of O in H, about +z.");
+  fields.number("roll", grasp.psi, kRadians, kRequired, "About the long axis.");
+}
+
+inline constexpr auto kVisitGrasp = [](auto& fields, Grasp& grasp) {
+  visit_grasp(fields, grasp);
+};
+
+template <typename Fields>
+void visit_push(Fields& fields, WrittenPush& push) {
+  fields.word("kind", push.kind, kPushWords, kRequired,
+              "What the motion is called. A slide with guard_angle and a pivot with "
+              "guard_distance stop where they no longer are one.");
+  fields.text("pusher", push.pusher, kRequired, "Name of the pusher in the scene.");
+  fields.text("face", push.face, kRequired, "Face of the object that it touches.");
+  fields.number("place", push.place, kMetres,
+                "Centre of the pusher along the face, from the centre of the face; not "
+                "for a roll.");
+  fields.vector(
+      "direction", push.direction, {-1.0, 1.0, ""},
+      "Unit vector in O at the start of the push: where the pusher moves in the "
+      "hand; not for a roll.");
+  fields.number("travel", push.travel, {-10.0, 10.0, "m"}, kRequired,
+                "Length of the path, >= 0; for a roll with sign, along +z of H.");
+  fields.number("turn", push.turn, kRadians,
+                "Of the pusher in the hand over the whole push; not for a roll.");
+  fields.number("guard_angle", push.guard_angle, {0.0, 10.0, "rad"},
+                "A slide stops when the object has turned by this.");
+  fields.number("guard_distance", push.guard_distance, {0.0, 10.0, "m"},
+                "A pivot stops when the finger axis has drifted by this.");
+  PlannedPush& planned = push.planned;
+  fields.group("start", planned.start, kRequired, "Pose in the hand before.",
+               kVisitGrasp);
+  fields.group("end", planned.end, kRequired, "Pose in the hand after.", kVisitGrasp);
+  fields.measured("push_force", planned.push_force, {0.0, 1e12, "N"},
+                  "Greatest along the push.");
+  fields.measured("slack", planned.slack, {-1e12, 1e12, ""},
+                  "Least distance from slipping along the push, margin included.");
+  fields.measured("certificate", planned.certificate, {0.0, 1e12, ""},
+                  "Worst residual of the laws of contact along the push.");
+  fields.measured("error_estimate", planned.error_estimate, kDistances,
+                  "Of the end pose.");
+}
+
+template <typename Fields>
+void visit_margin(Fields& fields, Margin& margin) {
+  fields.number("friction", margin.friction, kShares, kRequired, "Of the pusher.");
+  fields.number("force", margin.force, kShares, kRequired, "Of weight over grip.");
+  fields.number("torque_radius", margin.torque_radius, kShares, kRequired,
+                "Of the pads.");
+  fields.number("place", margin.place, kDistances, kRequired, "Of the pusher.");
+  fields.number("centre_of_mass", margin.centre_of_mass, kDistances, kRequired,
+                "Of the object.");
+}
+
+template <typename Fields>
+void visit_proof(Fields& fields, Proof& proof) {
+  fields.word("kind", proof.kind, kProofWords, kRequired, "Which argument.");
+  fields.vector("twist", proof.twist, {-1e6, 1e6, ""}, kRequired,
+                "Evidence that gravity is not held.");
+  fields.vector("direction", proof.direction, {-1.0, 1.0, ""}, kRequired,
+                "Normal of the half-plane that excludes the goal.");
+  fields.text("text", proof.text, kRequired, "The argument in words.");
+}
+
+template <typename Fields>
+void visit_costs(Fields& fields, WrittenPlan& record) {
+  Plan& plan = record.plan;
+  fields.measured("cost", plan.cost, kCosts, "J = placements + travel / length.");
+  fields.number("placements", plan.placements, kCosts, kRequired, "S: of a pusher.");
+  fields.measured("travel", plan.travel, kDistances, "T: path length of the plan.");
+  fields.measured("lower_bound", plan.lower_bound, kCosts, "No plan costs less.");
+  fields.measured("gap", record.gap, {-1.0, 1e12, ""},
+                  "(cost - lower_bound) / lower_bound; for people, not read back.");
+  fields.measured("published_cost", plan.published_cost, kCosts,
+                  "1 per push by a new pusher, 0.1 by the same one.");
+}
+
+/// `Work` is what a plan counts in signed numbers; a file has none below 0.
+template <typename Fields, typename Work>
+void visit_work(Fields& fields, const char* key, Work& work, const char* doc) {
+  auto count = static_cast<std::uint64_t>(work);
+  fields.count(key, count, doc);
+  work = static_cast<Work>(count);
+}
+
+template <typename Fields>
+void visit_plan(Fields& fields, WrittenPlan& record) {
+  Plan& plan = record.plan;
+  fields.version(kPlanVersion);
+  fields.text("scene_digest", record.scene_digest, kRequired,
+              "Of the scene (FNV-1a 64 of its text below).");
+  fields.word("status", plan.status, kStatusWords, kRequired, "How the search ended.");
+  fields.text("message", plan.message, kRequired, "The same in words.");
+  fields.group("proof", record.proof, "Why no plan exists; only if infeasible.",
+               [](auto& f, Proof& proof) { visit_proof(f, proof); });
+  fields.text("planner", plan.planner, kRequired, "Which planner found it.");
+  fields.count("seed", plan.seed, "Of every random choice.");
+  fields.group("margin", plan.margin, kRequired,
+               "Box of uncertainty that every push survives: shares, and distances in m.",
+               [](auto& f, Margin& margin) { visit_margin(f, margin); });
+  fields.group("start", plan.start, kRequired, "Pose in the hand before.", kVisitGrasp);
+  fields.group("goal", plan.goal, kRequired, "Pose reached.", kVisitGrasp);
+  fields.list("pushes", record.pushes, Length{0, kMostPushes}, kRequired, "In order.",
+              [](auto& f, WrittenPush& push) { visit_push(f, push); });
+  visit_costs(fields, record);
+  visit_work(fields, "stick_tests", plan.stick_tests, "Work of the own planner.");
+  visit_work(fields, "propagations", plan.propagations, "Work of OMPL's planners.");
+  visit_work(fields, "instants", plan.instants, "Exact mechanics calls in checking.");
+  fields.measured("seconds", plan.seconds, {0.0, 1e9, "s"}, "Wall time.");
+  fields.text("scene", record.scene, kRequired, "The complete scene file (YAML).");
+}
+
+}  // namespace prehensile::internal

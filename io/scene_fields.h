@@ -1,0 +1,189 @@
+/// Every field of a scene file: key, type, unit, range, default (the value that the
+/// struct starts with) and one line of documentation. Reader, --set, writer and JSON
+/// Schema all come from this list. Internal to the io layer.
+#pragma once
+
+#include <array>
+
+#include "io/fields.h"
+#include "scene/scene.h"
+
+namespace prehensile::internal {
+
+inline constexpr int kSceneVersion = 1;
+
+inline constexpr Bounds kLengths{1e-6, 10.0, "m"};
+inline constexpr Bounds kPlaces{-10.0, 10.0, "m"};
+inline constexpr Bounds kFrictions{0.0, 1e3, ""};
+inline constexpr Bounds kAngles{-100.0, 100.0, "rad"};
+
+inline constexpr std::array<Word<Axis>, 3> kAxisWords = {
+    {{Axis::kX, "x"}, {Axis::kY, "y"}, {Axis::kZ, "z"}}};
+inline constexpr std::array<Word<JawMode>, 3> kJawModeWords = {
+    {{JawMode::kCoupled, "coupled"},
+     {JawMode::kFixedJaw1, "fixed_jaw_1"},
+     {JawMode::kFixedJaw2, "fixed_jaw_2"}}};
+inline constexpr std::array<Word<Overhang>, 2> kOverhangWords = {
+    {{Overhang::kClip, "clip"}, {Overhang::kIgnore, "ignore"}}};
+inline constexpr std::array<Word<GoalTest>, 2> kGoalTestWords = {
+    {{GoalTest::kPerCoordinate, "per_coordinate"},
+     {GoalTest::kWeightedSum, "weighted_sum"}}};
+
+template <typename Fields>
+void visit_object(Fields& fields, Object& object) {
+  fields.choice(
+      object.shape,
+      alternative<BoxShape>("box", "Box centred on the origin of the object frame O.",
+                            [](auto& f, BoxShape& box) {
+                              f.vector(
+                                  "size", box.size, kLengths, kRequired,
+                                  "Along x, y (pad plane) and z (between the jaws).");
+                            }),
+      alternative<CylinderShape>(
+          "cylinder",
+          "Cylinder centred on the origin of O, held at its flat ends (axis z) or on "
+          "its curved side (x or y), where it can roll.",
+          [](auto& f, CylinderShape& cylinder) {
+            f.number("radius", cylinder.radius, kLengths, kRequired, "Radius.");
+            f.number("length", cylinder.length, kLengths, kRequired, "Length.");
+            f.word("axis", cylinder.axis, kAxisWords, kOptional, "Axis in O.");
+          }),
+      alternative<PrismShape>(
+          "prism", "Straight prism along z over a polygon in the pad plane of O.",
+          [](auto& f, PrismShape& prism) {
+            f.points("outline", prism.outline, Length{3, 200}, kPlaces,
+                     "Vertices [x, y], counter-clockwise; edges must not cross.");
+            f.number("thickness", prism.thickness, kLengths, kRequired,
+                     "Along z, between the jaws.");
+          }));
+  fields.number("mass", object.mass, {1e-9, 1e4, "kg"}, kRequired, "Mass.");
+  fields.vector("centre_of_mass", object.p_OCom, kPlaces,
+                "In O. Absent: centroid of the shape.");
+  fields.number("inertia", object.inertia, {0.0, 1e6, "kg m^2"},
+                "About z through the centre of mass. Absent: of the homogeneous shape.");
+}
+
+template <typename Fields>
+void visit_pad(Fields& fields, Pad& pad) {
+  fields.choice(
+      pad,
+      alternative<DiscPad>("disc", "Round pad.",
+                           [](auto& f, DiscPad& disc) {
+                             f.number("radius", disc.radius, kLengths, kRequired,
+                                      "Radius.");
+                           }),
+      alternative<RectanglePad>("rectangle", "Rectangular pad.",
+                                [](auto& f, RectanglePad& rectangle) {
+                                  f.vector("size", rectangle.size, kLengths, kRequired,
+                                           "Along x and y of the hand frame H.");
+                                }),
+      alternative<LinePad>(
+          "line", "Line contact.",
+          [](auto& f, LinePad& line) {
+            f.number("length", line.length, kLengths, kRequired, "Length.");
+            f.angle("angle", line.angle, kAngles, "Of the line in H, from its x axis.");
+          }),
+      alternative<PointPad>("point", "Point contact.", kNoFields));
+}
+
+template <typename Fields>
+void visit_gripper(Fields& fields, Gripper& gripper) {
+  fields.text("name", gripper.name, kOptional, "Name shown in reports.");
+  fields.group("pad", gripper.pad, kRequired,
+               "Shape of both pads, centred on the finger axis.",
+               [](auto& f, Pad& pad) { visit_pad(f, pad); });
+  fields.one_or_two("friction", gripper.friction, kFrictions,
+                    "Of both jaws, or of [jaw 1, jaw 2].");
+  fields.number("grip_force", gripper.grip_force, {0.0, 1e6, "N"}, kRequired,
+                "Of each finger.");
+  fields.word("jaw_mode", gripper.jaw_mode, kJawModeWords, kOptional,
+              "coupled: symmetric jaws; fixed_jaw_1 or fixed_jaw_2: that jaw stands "
+              "still, the other one presses.");
+  fields.group("tool", gripper.tool, kOptional,
+               "Fixed transform from H to the tool frame T of the robot.",
+               [](auto& f, ToolTransform& tool) {
+                 f.vector("position", tool.p_HT, kPlaces, kOptional, "Of T in H.");
+                 f.vector("quaternion_xyzw", tool.q_HT, {-1.001, 1.001, ""}, kOptional,
+                          "Orientation of T in H, unit length, order x, y, z, w.");
+               });
+}
+
+template <typename Fields>
+void visit_pusher(Fields& fields, Pusher& pusher) {
+  fields.text("name", pusher.name, kRequired, "Name, used by plans and reports.");
+  fields.choice(
+      pusher.feature, alternative<PointFeature>("point", "A point.", kNoFields),
+      alternative<LineFeature>("line", "A straight edge, or the section of a wall.",
+                               [](auto& f, LineFeature& line) {
+                                 f.number("length", line.length, kLengths,
+                                          "Absent: longer than any face.");
+                               }));
+  fields.number("friction", pusher.friction, kFrictions, kRequired,
+                "Between pusher and object.");
+  fields.vector("position", pusher.p_WP, kPlaces, kOptional,
+                "Centre of the feature in the world W.");
+  fields.angle("normal", pusher.normal_angle, kAngles,
+               "Direction in W of the normal, into the object.");
+  fields.names("faces", pusher.faces, Length{0, 200},
+               "Faces of the object it may touch: -x, +x, -y, +y, edge0, ... Absent: the "
+               "one opposite to its normal at the start.");
+}
+
+template <typename Fields>
+void visit_start(Fields& fields, Grasp& start) {
+  fields.number("x", start.X_HO.x, kPlaces, kOptional, "Of O in H.");
+  fields.number("y", start.X_HO.y, kPlaces, kOptional, "Of O in H.");
+  fields.angle("theta", start.X_HO.theta, kAngles, "Of O in H, about +z.");
+  fields.angle("roll", start.psi, kAngles,
+               "About the long axis; only for an object that can roll.");
+}
+
+template <typename Fields>
+void visit_goal(Fields& fields, Goal& goal) {
+  fields.number("x", goal.x, kPlaces, "Of O in H. Absent: free.");
+  fields.number("y", goal.y, kPlaces, "Of O in H. Absent: free.");
+  fields.angle("theta", goal.theta, kAngles,
+               "Of O in H; any number of whole turns counts. Absent: free.");
+  fields.angle("roll", goal.psi, kAngles,
+               "About the long axis; only for an object that can roll. Absent: free.");
+  fields.group("tolerance", goal, kOptional, "How near is near enough.",
+               [](auto& f, Goal& g) {
+                 f.number("position", g.position_tolerance, {1e-9, 1.0, "m"}, kOptional,
+                          "Of x and y; for weighted_sum of the whole sum.");
+                 f.angle("angle", g.angle_tolerance, {1e-9, 4.0, "rad"},
+                         "Of theta and roll, per_coordinate only.");
+               });
+  fields.number("characteristic_length", goal.characteristic_length, {1e-9, 10.0, "m"},
+                kOptional, "1 rad counts like this distance, weighted_sum only.");
+  fields.word("test", goal.test, kGoalTestWords, kOptional,
+              "per_coordinate: each fixed coordinate within its tolerance; weighted_sum: "
+              "distance + characteristic_length * angle within the position tolerance.");
+}
+
+template <typename Fields>
+void visit_scene(Fields& fields, Scene& scene) {
+  fields.version(kSceneVersion);
+  fields.text("name", scene.name, kOptional, "Name shown in reports.");
+  fields.text("origin", scene.origin, kOptional, "Where the numbers come from.");
+  fields.group("object", scene.object, kRequired, "What is held.",
+               [](auto& f, Object& object) { visit_object(f, object); });
+  fields.group("gripper", scene.gripper, kRequired, "What holds it.",
+               [](auto& f, Gripper& gripper) { visit_gripper(f, gripper); });
+  fields.list("pushers", scene.pushers, Length{0, 64}, kOptional,
+              "What it is pushed against: features that stand still in the world W, "
+              "which is aligned with O at the start.",
+              [](auto& f, Pusher& pusher) { visit_pusher(f, pusher); });
+  fields.vector("gravity", scene.g_W, {-1e3, 1e3, "m/s^2"}, kOptional,
+                "In W, in the pad plane.");
+  fields.word("overhang", scene.overhang, kOverhangWords, kOptional,
+              "clip: only the part of a pad on the face presses; ignore: the whole pad, "
+              "as long as its centre is on the face.");
+  fields.group("start", scene.start, kOptional,
+               "Pose in the hand before; absent: object and hand frames coincide.",
+               [](auto& f, Grasp& start) { visit_start(f, start); });
+  fields.group("goal", scene.goal,
+               "Pose wanted in the hand; absent coordinates are free.",
+               [](auto& f, Goal& goal) { visit_goal(f, goal); });
+}
+
+}  // namespace prehensile::internal

@@ -1,0 +1,90 @@
+#include "io/scene_file.h"
+
+#include <cinttypes>
+#include <cstdint>
+#include <cstdio>
+
+#include "io/document.h"
+#include "io/field_reader.h"
+#include "io/field_schema.h"
+#include "io/field_writer.h"
+#include "io/scene_fields.h"
+
+namespace prehensile {
+namespace {
+
+using internal::Faults;
+using internal::Value;
+
+constexpr auto kVisit = [](auto& fields, Scene& scene) {
+  internal::visit_scene(fields, scene);
+};
+
+/// What `check` finds, at the line of the field or of the nearest value around
+/// it. Where a field could not be read, what depends on it is not worth a
+/// message.
+void add_faults_of_values(const Scene& scene, const Value& root, Faults& faults) {
+  const Faults unreadable = faults;
+  for (const Fault& fault : check(scene)) {
+    if (unreadable.concerns(fault.field)) continue;
+    faults.add(internal::deepest(root, fault.field).place, fault.field, fault.what);
+  }
+}
+
+/// FNV-1a, 64 bits (Fowler, Noll, Vo).
+std::string digest_of(const std::string& text) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char c : text) {
+    hash ^= static_cast<unsigned char>(c);
+    hash *= 0x100000001b3u;
+  }
+  char hex[17];
+  std::snprintf(hex, sizeof hex, "%016" PRIx64, hash);
+  return hex;
+}
+
+}  // namespace
+
+SceneFile parse_scene(const std::string& text, const std::string& label,
+                      const std::vector<std::string>& overrides) {
+  Faults faults(label, overrides);
+  if (text.size() > internal::kLargestScene) {
+    faults.fail({}, "",
+                std::to_string(text.size()) + " bytes: expected at most " +
+                    std::to_string(internal::kLargestScene) + " bytes");
+  }
+  Value root = internal::parse_yaml(text, faults);
+  internal::apply_overrides(root, overrides, faults);
+  SceneFile file;
+  internal::FieldReader::read(root, "", faults, file.scene, kVisit);
+  add_faults_of_values(file.scene, root, faults);
+  faults.raise();
+  file.text = text;
+  file.digest = digest_of(scene_to_yaml(file.scene));
+  return file;
+}
+
+SceneFile read_scene(const std::filesystem::path& file,
+                     const std::vector<std::string>& overrides) {
+  const std::string text = internal::read_text(file, internal::kLargestScene);
+  return parse_scene(text, file.string(), overrides);
+}
+
+std::string scene_to_yaml(const Scene& scene) {
+  Scene copy = scene;  // visitors may change what they visit; this one does not
+  return internal::to_yaml(internal::FieldWriter::write(copy, kVisit));
+}
+
+std::string scene_schema() {
+  Scene defaults;
+  nlohmann::ordered_json schema = {
+      {"$schema", "http://json-schema.org/draft-07/schema#"},
+      {"title", "Scene of prehensile"},
+      {"description",
+       "What is held, what holds it, what it is pushed against, and the "
+       "regrasp that is wanted. SI units unless the key says otherwise."}};
+  schema.update(internal::FieldSchema::describe(defaults, kVisit));
+  return schema.dump(2) + '\n';
+}
+
+}  // namespace prehensile

@@ -1,0 +1,55 @@
+/// The controls of OMPL's control planners: which contact pushes, and how.
+#pragma once
+
+#include <memory>
+
+#include <ompl/control/ControlSampler.h>
+#include <ompl/control/ControlSpace.h>
+
+#include "planner/ompl/push_space.h"
+
+namespace prehensile {
+
+/// Compound of a discrete letter and the real numbers of PushControl: heading, share,
+/// travel and, for an object that can roll, roll. Raw controls are read and written here
+/// only.
+class PushControlSpace : public ompl::control::CompoundControlSpace {
+ public:
+  PushControlSpace(const std::shared_ptr<PushSpace>& states,
+                   std::shared_ptr<PushSteps> steps);
+
+  PushControl read(const ompl::control::Control* control) const;
+  void write(const PushControl& from, ompl::control::Control* control) const;
+
+  ompl::control::ControlSamplerPtr allocDefaultControlSampler() const override;
+
+  const PushSpace& states() const { return *states_; }
+
+ private:
+  std::shared_ptr<PushSpace> states_;
+  std::shared_ptr<PushSteps> steps_;
+  bool rolls_;
+};
+
+/// Random pushes. Without a state (SST) the heading is drawn mostly from the friction
+/// cone of the contact, where a push may stick; with one (KPIECE1 and the directed
+/// sampler) headings without any sticking rotation are drawn again.
+class PushControlSampler : public ompl::control::ControlSampler {
+ public:
+  PushControlSampler(const PushControlSpace* space, std::shared_ptr<PushSteps> steps);
+
+  void sample(ompl::control::Control* control) override;
+  void sample(ompl::control::Control* control, const ompl::base::State* state) override;
+  void sampleNext(ompl::control::Control* control,
+                  const ompl::control::Control* previous) override;
+  void sampleNext(ompl::control::Control* control, const ompl::control::Control* previous,
+                  const ompl::base::State* state) override;
+
+ private:
+  PushControl drawn();
+
+  const PushControlSpace& controls_;
+  std::shared_ptr<PushSteps> steps_;
+};
+
+}  // namespace prehensile

@@ -1,0 +1,240 @@
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+
+#include <gtest/gtest.h>
+#include <ompl/util/Console.h>
+
+#include "planner/frame.h"
+#include "planner/replay.h"
+#include "tests/planner/ompl_regrasps.h"
+
+namespace prehensile {
+namespace {
+
+using testing::kUnlimited;
+
+std::vector<std::string> stock_planners() {
+  std::vector<std::string> names = frame_planners();
+  names.erase(names.begin());
+  return names;
+}
+
+struct Outcome {
+  Model model;
+  Plan plan;
+  Work work;
+};
+
+Outcome solve(const Scene& scene, const std::string& planner,
+              std::int64_t budget = 100'000, std::uint64_t seed = 1) {
+  Outcome outcome{.model = prepare(scene), .work = {.budget = budget}};
+  const SearchModel search = prepare_search(outcome.model, Margin{});
+  outcome.plan =
+      solve_in_frame(search, scene.start, *scene.goal,
+                     {.planner = planner, .seed = seed, .budget = budget}, outcome.work);
+  return outcome;
+}
+
+/// Equal up to the rounding of poses into places and back.
+void expect_same(const Grasp& a, const Grasp& b) {
+  EXPECT_NEAR(a.X_HO.x, b.X_HO.x, 1e-14);
+  EXPECT_NEAR(a.X_HO.y, b.X_HO.y, 1e-14);
+  EXPECT_NEAR(a.X_HO.theta, b.X_HO.theta, 1e-14);
+  EXPECT_EQ(a.psi, b.psi);
+}
+
+void expect_chain_of_pushes(const Outcome& outcome) {
+  const Plan& plan = outcome.plan;
+  ASSERT_EQ(plan.status, PlanStatus::kReachedGoal) << plan.planner << " " << plan.message;
+  ASSERT_FALSE(plan.pushes.empty());
+  EXPECT_EQ(plan.start, outcome.model.scene.start);
+  expect_same(plan.pushes.front().start, plan.start);
+  for (std::size_t i = 1; i < plan.pushes.size(); ++i) {
+    expect_same(plan.pushes[i].start, plan.pushes[i - 1].end);
+  }
+  EXPECT_EQ(plan.goal, plan.pushes.back().end);
+  EXPECT_TRUE(reaches(*outcome.model.scene.goal, plan.goal));
+}
+
+TEST(OmplFrame, OwnPlannerIsTheFirstOfSix) {
+  EXPECT_TRUE(frame_is_built());
+  const std::vector<std::string> names = {"push",    "rrt", "est",
+                                          "kpiece1", "sst", "rrtconnect"};
+  EXPECT_EQ(frame_planners(), names);
+}
+
+TEST(OmplFrame, EveryPlannerSolvesEveryRegrasp) {
+  for (const std::string& planner : frame_planners()) {
+    for (const Scene& scene : testing::regrasps()) {
+      const Outcome outcome = solve(scene, planner);
+      expect_chain_of_pushes(outcome);
+      EXPECT_EQ(outcome.plan.planner, planner);
+      const bool own = planner == "push";
+      EXPECT_EQ(outcome.work.propagations > 0, !own);
+      EXPECT_EQ(outcome.work.stick_tests > 0, own);
+      EXPECT_EQ(outcome.plan.propagations, outcome.work.propagations);
+    }
+  }
+}
+
+TEST(OmplFrame, PlansPassTheReplayWithTheExactMechanics) {
+  for (const std::string& planner : frame_planners()) {
+    for (const Scene& scene : testing::regrasps()) {
+      const Model model = prepare(scene);
+      const Plan plan = plan_regrasp(model, {.planner = planner, .budget = 200'000});
+      ASSERT_TRUE(plan.usable()) << planner << ": " << plan.message;
+      const Replay replayed = replay(model, plan);
+      EXPECT_TRUE(replayed.agrees) << planner << ": " << replayed.why;
+      std::printf("%-10s S %2.0f  J %6.3f  bound %5.3f  propagations %ld\n",
+                  planner.c_str(), plan.placements, plan.cost, plan.lower_bound,
+                  static_cast<long>(plan.propagations));
+    }
+  }
+}
+
+TEST(OmplFrame, ApproximateSolutionsNeverCount) {
+  for (const std::string& planner : stock_planners()) {
+    const Outcome outcome = solve(testing::hopeless_regrasp(), planner, 3000);
+    EXPECT_EQ(outcome.plan.status, PlanStatus::kBudgetSpent) << planner;
+    EXPECT_TRUE(outcome.plan.pushes.empty()) << planner;
+    EXPECT_FALSE(outcome.plan.message.empty());
+  }
+}
+
+TEST(OmplFrame, BudgetIsKeptToThePropagation) {
+  for (const std::string& planner : stock_planners()) {
+    for (const std::int64_t budget : {0, 1, 10, 137, 2000}) {
+      const Outcome outcome = solve(testing::hopeless_regrasp(), planner, budget);
+      EXPECT_EQ(outcome.work.propagations, budget) << planner;
+      EXPECT_EQ(outcome.plan.status, PlanStatus::kBudgetSpent) << planner;
+    }
+  }
+}
+
+TEST(OmplFrame, StopFlagAndTimeLimitEndAnySearch) {
+  const Scene scene = testing::hopeless_regrasp();
+  const Model model = prepare(scene);
+  const SearchModel search = prepare_search(model, Margin{});
+  const std::atomic<bool> stop = true;
+  for (const std::string& planner : frame_planners()) {
+    Work work{.budget = kUnlimited};
+    const Plan stopped = solve_in_frame(search, scene.start, *scene.goal,
+                                        {.planner = planner, .stop = &stop}, work);
+    EXPECT_EQ(stopped.status, PlanStatus::kStopped) << planner;
+  }
+  for (const std::string& planner : stock_planners()) {
+    Work work{.budget = kUnlimited};
+    const Plan late = solve_in_frame(search, scene.start, *scene.goal,
+                                     {.planner = planner, .time_limit = 0.02}, work);
+    EXPECT_EQ(late.status, PlanStatus::kBudgetSpent) << planner;
+  }
+}
+
+TEST(OmplFrame, UnknownPlannerIsSaidToBeUnknown) {
+  const Outcome outcome = solve(testing::regrasps()[0], "magic");
+  EXPECT_EQ(outcome.plan.status, PlanStatus::kUnsupported);
+}
+
+TEST(OmplFrame, NothingToDoAtTheGoal) {
+  for (const std::string& planner : stock_planners()) {
+    Scene scene = testing::square_scene();
+    scene.goal = Goal{.x = scene.start.X_HO.x};
+    const Outcome outcome = solve(scene, planner);
+    EXPECT_EQ(outcome.plan.status, PlanStatus::kNothingToDo) << planner;
+    EXPECT_EQ(outcome.work.propagations, 0);
+  }
+}
+
+TEST(OmplFrame, GoalsMayFixSomeCoordinatesOnly) {
+  const Scene scene = testing::square_scene();
+  const PlanarPose& start = scene.start.X_HO;
+  const std::vector<Goal> goals = {
+      {.theta = start.theta + 0.8},
+      {.x = start.x + 0.02},
+      {.y = start.y - 0.015, .theta = start.theta - 2.0 * std::numbers::pi + 0.3}};
+  for (const std::string& planner : frame_planners()) {
+    for (const Goal& goal : goals) {
+      expect_chain_of_pushes(solve(testing::with_goal(scene, goal), planner));
+    }
+  }
+}
+
+TEST(OmplFrame, RollsAreStepsOfTheirOwn) {
+  Scene scene = testing::can_scene();
+  scene.goal = Goal{.x = 0.01, .psi = 0.7};
+  for (const std::string& planner : frame_planners()) {
+    const Outcome outcome = solve(scene, planner);
+    expect_chain_of_pushes(outcome);
+    int rolls = 0;
+    for (const PlannedPush& planned : outcome.plan.pushes) {
+      const bool rolls_here = std::holds_alternative<Roll>(planned.push);
+      rolls += rolls_here;
+      EXPECT_EQ(planned.start.psi != planned.end.psi, rolls_here) << planner;
+      EXPECT_EQ(planned.start.X_HO == planned.end.X_HO, rolls_here) << planner;
+    }
+    EXPECT_GE(rolls, 1) << planner;
+  }
+}
+
+TEST(OmplFrame, GoalOffTheObjectIsNoGoal) {
+  Scene scene = testing::square_scene();
+  scene.goal = testing::goal_at({0.08, 0.0}, 0.0);
+  for (const std::string& planner : stock_planners()) {
+    const Outcome outcome = solve(scene, planner, 500);
+    EXPECT_EQ(outcome.plan.status, PlanStatus::kBudgetSpent) << planner;
+    EXPECT_LE(outcome.work.propagations, 500) << planner;
+  }
+}
+
+TEST(OmplFrame, ToleranceDecidesWhatIsReached) {
+  Goal goal = testing::goal_at({-0.03, -0.02}, -0.1);
+  goal.test = GoalTest::kWeightedSum;
+  for (const double tolerance : {1e-6, 1e-3, 1e-2}) {
+    goal.position_tolerance = tolerance;
+    for (const std::string& planner : stock_planners()) {
+      expect_chain_of_pushes(
+          solve(testing::with_goal(testing::square_scene(), goal), planner));
+    }
+  }
+}
+
+TEST(OmplFrame, ConsecutivePushesAreNotOneStraightPush) {
+  for (const std::string& planner : stock_planners()) {
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+      const Outcome outcome = solve(testing::regrasps()[2], planner, 100'000, seed);
+      const auto& pushes = outcome.plan.pushes;
+      for (std::size_t i = 1; i < pushes.size(); ++i) {
+        const LinearPush a = as_linear(pushes[i - 1].push);
+        const LinearPush b = as_linear(pushes[i].push);
+        const bool same_line = a.contact == b.contact && (a.e - b.e).norm() < 1e-10 &&
+                               std::abs(a.turn * b.travel - b.turn * a.travel) < 1e-12;
+        EXPECT_FALSE(same_line) << planner << " seed " << seed;
+      }
+    }
+  }
+}
+
+/// Collects what OMPL says.
+class Listener : public ompl::msg::OutputHandler {
+ public:
+  void log(const std::string&, ompl::msg::LogLevel, const char*, int) override {
+    ++lines;
+  }
+  int lines = 0;
+};
+
+TEST(OmplFrame, LogIsQuietAndGivenBack) {
+  ompl::msg::OutputHandler* before = ompl::msg::getOutputHandler();
+  Listener listener;
+  ompl::msg::useOutputHandler(&listener);
+  for (const std::string& planner : frame_planners()) {
+    solve(testing::regrasps()[0], planner);
+  }
+  EXPECT_EQ(listener.lines, 0);
+  EXPECT_EQ(ompl::msg::getOutputHandler(), &listener);
+  ompl::msg::useOutputHandler(before);
+}
+
+}  // namespace
+}  // namespace prehensile

@@ -271,6 +271,41 @@ TEST(Steering, DiscMovesSurviveTheRealPad) {
   EXPECT_LE(nominal_fails, 10);
 }
 
+TEST(Steering, MovesArriveWhenThePushIsApplied) {
+  struct Case {
+    const char* name;
+    Pad pad;
+    PusherFeature feature;
+  };
+  const Case cases[] = {{"disc, walls", DiscPad{0.009}, LineFeature{}},
+                        {"disc, short edges", DiscPad{0.009}, LineFeature{0.03}},
+                        {"rectangle, walls", RectanglePad{{0.01, 0.02}}, LineFeature{}}};
+  for (const Case& c : cases) {
+    const Model model = prepare(scene_with(c.pad, c.feature, true));
+    const SearchModel search = prepare_search(model, Margin{});
+    const std::vector<Move> moves = sticking_moves(search, 200, 10);
+    ASSERT_EQ(moves.size(), 200u);
+    SearchModel nominal = search;
+    nominal.margin = Margin::none();
+    Work work{.budget = kUnlimited};
+    int arrived = 0;
+    for (const Move& move : moves) {
+      const Grasp start{pose_along(move.from, move.to, 0.0)};
+      const Transition transition = apply(model, start, push_of(search, move));
+      const PlanarPose wanted = pose_along(move.from, move.to, 1.0);
+      const PlanarPose& end = transition.end.X_HO;
+      const double error = std::hypot(end.x - wanted.x, end.y - wanted.y);
+      const bool arrives = transition.completed() && transition.slipped == 0.0 &&
+                           error < 1e-9 && std::abs(end.theta - wanted.theta) < 1e-9;
+      // The closed form may be wrong about a real disc; the pad check is not.
+      EXPECT_EQ(arrives, move_slack(nominal, move, 100, work) >= 0.0);
+      arrived += arrives;
+    }
+    std::printf("%-20s %d of 200 moves arrive without slip\n", c.name, arrived);
+    EXPECT_GE(arrived, 190) << c.name;
+  }
+}
+
 TEST(Steering, PointPushersStandAtTheCentreOfPressure) {
   const Model model = prepare(scene_with(DiscPad{0.009}, PointFeature{}));
   const SearchModel search = prepare_search(model, Margin{});

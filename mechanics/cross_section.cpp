@@ -119,7 +119,7 @@ bool falls(CrossSectionInstant& answer, const Balance& balance, const Units& uni
     LinearProgram::Point& opposed = program.add_row(Relation::kAtMost, 0.0);
     for (int k = 0; k < kFreedoms; ++k) opposed[k] = -balance.edge[j][k];
   }
-  program.add_row(Relation::kAtMost, 0.0)[1] = -1.0;
+  program.add_row(Relation::kAtMost, 0.0)[1] = -1.0;  // v_u >= 0: off the sheet
   for (int k = 0; k < kFreedoms; ++k) {
     program.add_row(Relation::kAtMost, 1.0)[k] = 1.0;
     program.add_row(Relation::kAtMost, 1.0)[k] = -1.0;

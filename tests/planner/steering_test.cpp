@@ -215,15 +215,15 @@ std::vector<Move> sticking_moves(const SearchModel& search, int wanted,
 
 TEST(Steering, MovesOfOtherPadsSurviveADenseCheck) {
   struct Case {
-    const char* name;
     Pad pad;
+    const char* name;
     Overhang overhang;
   };
   const Case cases[] = {
-      {"rectangle 1:2", RectanglePad{{0.01, 0.02}}, Overhang::kIgnore},
-      {"rectangle, clipped", RectanglePad{{0.01, 0.02}}, Overhang::kClip},
-      {"line", LinePad{0.02, 0.3}, Overhang::kIgnore},
-      {"disc, clipped", DiscPad{0.009}, Overhang::kClip}};
+      {RectanglePad{{0.01, 0.02}}, "rectangle 1:2", Overhang::kIgnore},
+      {RectanglePad{{0.01, 0.02}}, "rectangle, clipped", Overhang::kClip},
+      {LinePad{0.02, 0.3}, "line", Overhang::kIgnore},
+      {DiscPad{0.009}, "disc, clipped", Overhang::kClip}};
   for (const Case& c : cases) {
     Scene scene = scene_with(c.pad, LineFeature{}, true);
     scene.overhang = c.overhang;
@@ -273,13 +273,13 @@ TEST(Steering, DiscMovesSurviveTheRealPad) {
 
 TEST(Steering, MovesArriveWhenThePushIsApplied) {
   struct Case {
-    const char* name;
     Pad pad;
+    const char* name;
     PusherFeature feature;
   };
-  const Case cases[] = {{"disc, walls", DiscPad{0.009}, LineFeature{}},
-                        {"disc, short edges", DiscPad{0.009}, LineFeature{0.03}},
-                        {"rectangle, walls", RectanglePad{{0.01, 0.02}}, LineFeature{}}};
+  const Case cases[] = {{DiscPad{0.009}, "disc, walls", LineFeature{}},
+                        {DiscPad{0.009}, "disc, short edges", LineFeature{0.03}},
+                        {RectanglePad{{0.01, 0.02}}, "rectangle, walls", LineFeature{}}};
   for (const Case& c : cases) {
     const Model model = prepare(scene_with(c.pad, c.feature, true));
     const SearchModel search = prepare_search(model, Margin{});

@@ -18,7 +18,7 @@ struct DormandPrinceStep {
   Vec2 y, y_end;              ///< state at both ends
   Vec2 rate, rate_end;        ///< rate at both ends; rate_end starts the next step
   Vec2 error;                 ///< order 5 less order 4 at the end
-  double stiffness = 0.0;     ///< estimate of |d rate / dy| in the direction of `error`
+  Vec2 probe, probe_rate;     ///< a small change of y_end and what it does to the rate
   std::array<Vec2, 3> dense;  ///< coefficients of the continuous extension
 
   /// State at the share x in [0, 1] of the step.
@@ -63,8 +63,8 @@ double dormand_prince(const Rate& rate, DormandPrinceStep& step) {
   step.rate_end = k7;
   step.error = h * (71.0 / 57600 * k1 - 71.0 / 16695 * k3 + 71.0 / 1920 * k4 -
                     17253.0 / 339200 * k5 + 22.0 / 525 * k6 - 1.0 / 40 * k7);
-  const double apart = h * (slope7 - slope6).norm();
-  step.stiffness = apart > 0.0 ? (k7 - k6).norm() / apart : 0.0;
+  step.probe = h * (slope7 - slope6);
+  step.probe_rate = k7 - k6;
   step.dense[0] = h * k1 - h * slope7;
   step.dense[1] = h * slope7 - h * k7 - step.dense[0];
   step.dense[2] =

@@ -8,11 +8,12 @@
 #include "primitives/path_limits.h"
 #include "primitives/push_instant.h"
 #include "primitives/root.h"
+#include "primitives/step_control.h"
 
 namespace prehensile {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kNever = StepControl::kNever;
 
 /// Length below which a limit does not count as crossed [m].
 constexpr double kRoundOff = 1e-12;
@@ -25,14 +26,15 @@ constexpr double kLeapMargin = 0.02;
 /// Share of the tolerance that the location of an event may cost.
 constexpr double kLocationShare = 0.1;
 
-/// Least share of the tolerance that a step may spend.
-constexpr double kLeastShare = 0.05;
+/// Reported over computed error of a step: rates change abruptly where the centre of
+/// rotation passes a pad point, and estimates of the error there are rough.
+constexpr double kCaution = 2.0;
+
+/// Bound on the exponent of the growth of errors over one step.
+constexpr double kMostGrowth = 10.0;
 
 /// Weight of an angle for pads that cannot exert a torque, over the size of the object.
 constexpr double kLeastReach = 0.01;
-
-constexpr Obstacle kGravityLost{TransitionStatus::kFalls, EventKind::kGravityLost,
-                                "the grasp alone does not hold gravity"};
 
 /// The first change within a step: where, as a share of the step, and which limit; none:
 /// a change of contact mode.
@@ -40,14 +42,6 @@ struct Crossing {
   double at = kNever;
   std::optional<Limit> limit;
 };
-
-double solver_tolerance(double tolerance, double speed) {
-  return std::clamp(1e-3 * tolerance / speed, 1e-12, 1e-9);
-}
-
-double speed_of(const Model& model, const LinearPush& push) {
-  return push.travel + std::abs(push.turn) * 0.5 * model.L;
-}
 
 class PushRun {
  public:
@@ -59,14 +53,13 @@ class PushRun {
         options_(options),
         psi_(start.psi),
         traced_(trace != nullptr),
-        solver_tolerance_(solver_tolerance(options.tolerance, speed_of(model, push))),
         reach_(std::max(model.c, kLeastReach * model.L)),
-        instant_(model, push, start, solver_tolerance_),
+        instant_(model, push, start, options.tolerance),
         limits_(model, start, guard, reach_),
         record_(options.certificate_tolerance, trace),
-        location_(std::clamp(kLocationShare * options.tolerance / instant_.speed(), 1e-12,
-                             1e-3)),
-        natural_step_(2.0 * options.max_step) {}
+        control_(options.tolerance, 2.0 * options.max_step,
+                 std::clamp(kLocationShare * options.tolerance / instant_.speed(), 1e-12,
+                            1e-3)) {}
 
   Transition run() {
     begin();
@@ -79,18 +72,16 @@ class PushRun {
   void begin();
   void advance();
 
-  double choose_step();
   bool attempt();
   bool middle_agrees();
-  bool error_is_accepted();
   double length_of(const Vec2& error) const;
+  double growth() const;
   void block(double at);
   void accept();
 
   Crossing first_crossing();
   PathLimits::Values limits(double s, const Vec2& q) const;
   double mode_margin() const { return instant_.margin(seat_, regime_).least(); }
-  double mode_noise() const { return 100.0 * solver_tolerance_; }
 
   void pass(const Crossing& crossing);
   void change_mode();
@@ -108,13 +99,12 @@ class PushRun {
   const TransitionOptions options_;
   const double psi_;
   const bool traced_;
-  const double solver_tolerance_;
   const double reach_;  ///< [m] weight of an angle
 
   PushInstant instant_;
   PathLimits limits_;
   PushRecord record_;
-  const double location_;  ///< share of the push within which events are located
+  StepControl control_;
 
   Seat seat_;
   Regime regime_ = Regime::kStick;
@@ -128,9 +118,6 @@ class PushRun {
   Vec2 defect_ = Vec2::Zero();  ///< of the step's middle
   double step_error_ = 0.0;     ///< [m]
   Obstacle obstacle_;
-  double natural_step_;      ///< that error control asks for
-  double landing_ = kNever;  ///< step that ends at an event
-  double blocked_ = kNever;  ///< share at which no motion was found
   bool leaping_ = false;
   bool leaps_allowed_ = true;
   bool whole_ = true;  ///< the pad does not overhang
@@ -141,10 +128,9 @@ void PushRun::begin() {
   seat_ = instant_.geometry().first();
   whole_ = model_.region.is_whole(instant_.pose(seat_, s_, q_));
   if (!solve_here()) return;
-  if (!instant_.gravity_is_held()) return record_.stop(kGravityLost, s_);
   const ModeMargin margin = instant_.margin(seat_, Regime::kStick);
   for (const int lifted : {0, 1}) {
-    if (margin.pressed[lifted] >= -mode_noise()) continue;
+    if (margin.pressed[lifted] >= -instant_.noise()) continue;
     take_seat(instant_.geometry().tipped(seat_, q_[0], 1 - lifted), EventKind::kCorner);
     break;
   }
@@ -163,41 +149,29 @@ void PushRun::advance() {
   step_.s = s_;
   step_.y = q_;
   step_.rate = rate_;
-  step_.h = choose_step();
+  leaping_ = rides() && can_leap();
+  step_.h = leaping_ ? 1.0 - s_ : control_.next(s_, rides() ? options_.max_step : kNever);
   if (!attempt()) return;
 
   const Crossing crossing = first_crossing();
   const bool crosses = crossing.at <= 1.0;
-  if (crosses && leaping_) {
+  if (leaping_ && (crosses || mode_margin() < kLeapMargin)) {
     leaps_allowed_ = false;
     return;
   }
+  const double location = control_.location();
   const double before = crosses ? crossing.at * step_.h : kNever;
-  if (before <= location_) return pass(crossing);
+  if (before <= location) return pass(crossing);
   if (crosses && crossing.limit) {
-    landing_ = before - 0.5 * location_;  // ends on the valid side
+    control_.land(before - 0.5 * location);  // ends on the valid side
     return;
   }
-  if (crosses && before < step_.h - location_) {
-    landing_ = std::min(before + 0.5 * location_, 0.999 * step_.h);
+  if (crosses && before < step_.h - location) {
+    control_.land(std::min(before + 0.5 * location, 0.999 * step_.h));
     return;
   }
   accept();
   if (crosses && !record_.stopped()) pass(crossing);
-}
-
-double PushRun::choose_step() {
-  const double left = 1.0 - s_;
-  leaping_ = rides() && can_leap();
-  if (leaping_) return left;
-  double h = std::min(rides() ? options_.max_step : natural_step_, landing_);
-  landing_ = kNever;
-  if (blocked_ != kNever) {
-    const double free = blocked_ - s_;
-    // Right before the obstacle: look whether it is still there.
-    h = free <= location_ ? free + location_ : std::min(h, 0.5 * free);
-  }
-  return h >= left * (1.0 - 1e-12) ? left : h;
 }
 
 /// Between two whole ends of a ride nothing can happen if the wrench is constant: the
@@ -228,20 +202,18 @@ bool PushRun::attempt() {
     step_.y_end = q_;
     step_.error.setZero();
     step_.dense.fill(Vec2::Zero());
-    step_.stiffness = 0.0;
     if (!rate(s_ + step_.h, q_, step_.rate_end)) failed_at = s_ + step_.h;
   } else {
     failed_at = dormand_prince(rate, step_);
-  }
-  if (failed_at == kNever && !instant_.gravity_is_held()) {
-    obstacle_ = kGravityLost;
-    failed_at = s_ + step_.h;
   }
   if (failed_at != kNever) {
     block(failed_at);
     return false;
   }
-  return rides() || (middle_agrees() && error_is_accepted());
+  if (rides()) return true;
+  if (!middle_agrees()) return false;
+  step_error_ = std::max(length_of(step_.error), length_of(defect_));
+  return control_.accepts(step_.h, step_error_);
 }
 
 /// Looks into the middle of the step, where the stages may have missed a kink or jump of
@@ -257,26 +229,12 @@ bool PushRun::middle_agrees() {
     return false;
   }
   defect_ = step_.h * (instant_.rate() - step_.middle_rate());
-  const bool left = mode_margin() < -mode_noise();
+  const bool left = mode_margin() < -instant_.noise();
   instant_.bring_back();
-  if (!left || mode_margin() < -mode_noise() || step_.h <= location_) return true;
-  landing_ = 0.5 * step_.h;
+  if (!left || mode_margin() < -instant_.noise() || step_.h <= control_.location())
+    return true;
+  control_.land(0.5 * step_.h);
   return false;
-}
-
-/// A step may spend its share of the tolerance, so that all errors add up to it. Very
-/// short steps, as a kink or a jump of the rate enforces them, are rare and may spend
-/// more.
-bool PushRun::error_is_accepted() {
-  step_error_ = std::max(length_of(step_.error), length_of(defect_));
-  const double allowed = options_.tolerance * std::max(step_.h, kLeastShare);
-  const double factor = 0.9 * std::pow(allowed / std::max(step_error_, 1e-300), 0.25);
-  const bool accepted = step_error_ <= allowed || step_.h <= location_;
-  if (!accepted || step_.h >= 0.999 * natural_step_) {
-    natural_step_ = std::clamp(step_.h * std::clamp(factor, 0.2, 4.0), 0.5 * location_,
-                               2.0 * options_.max_step);
-  }
-  return accepted;
 }
 
 /// What an error of the coordinates at the end of the step makes of the pose [m].
@@ -286,35 +244,45 @@ double PushRun::length_of(const Vec2& error) const {
   return Vec3(one.x - other.x, one.y - other.y, reach_ * error[1]).norm();
 }
 
-/// There is no motion at `at`: close in on it by halves, and stop before it.
+/// There is no motion at `at`.
 void PushRun::block(double at) {
   if (leaping_) {
     leaps_allowed_ = false;
-  } else if (at - s_ <= 2.0 * location_) {
+  } else if (control_.is_at_block(s_, at)) {
     stop(obstacle_);
-  } else {
-    blocked_ = at;
   }
 }
 
 void PushRun::accept() {
-  const double growth = std::exp(std::min(step_.stiffness * step_.h, 3.0));
-  const double noise = rides() ? 0.0 : mode_noise() * instant_.speed() * step_.h;
-  error_ = error_ * growth + (rides() ? 0.0 : step_error_) + noise;
+  if (!rides()) {
+    const double noise = instant_.noise() * instant_.speed() * step_.h;
+    error_ = error_ * growth() + kCaution * step_error_ + noise;
+  }
   record_.add_slip(std::abs(step_.y_end[0] - q_[0]));
   s_ = step_.h == 1.0 - s_ ? 1.0 : s_ + step_.h;
   q_ = step_.y_end;
   rate_ = instant_.rate();
   margin_ = mode_margin();
-  if (s_ >= blocked_) blocked_ = kNever;
+  control_.passed(s_);
   record_.add(instant_.sample(s_, psi_));
+}
+
+/// How much of an error made before this step is there after it, by the change of rate
+/// between two states at its end. A pusher that trails the pads is unstable.
+double PushRun::growth() const {
+  const Vec2 lengths(1.0, reach_);
+  const Vec2 apart = step_.probe.cwiseProduct(lengths);
+  const Vec2 rate = step_.probe_rate.cwiseProduct(lengths);
+  if (!(apart.norm() > 1e3 * instant_.noise() * instant_.speed() * step_.h)) return 1.0;
+  return std::exp(
+      std::clamp(step_.h * apart.dot(rate) / apart.squaredNorm(), 0.0, kMostGrowth));
 }
 
 Crossing PushRun::first_crossing() {
   Crossing first;
   const PathLimits::Values at_start = limits(s_, q_);
   const PathLimits::Values at_end = limits(s_ + step_.h, step_.y_end);
-  const double resolution = 0.1 * location_ / step_.h;
+  const double resolution = 0.1 * control_.location() / step_.h;
   for (int i = 0; i < PathLimits::kCount; ++i) {
     if (at_end[i] >= -kRoundOff) continue;
     const auto limit = [&](double x) { return limits(s_ + x * step_.h, step_.at(x))[i]; };
@@ -324,7 +292,7 @@ Crossing PushRun::first_crossing() {
     if (at < first.at) first = {at, static_cast<Limit>(i)};
   }
   const double margin_at_end = mode_margin();
-  if (margin_at_end >= -mode_noise()) return first;
+  if (margin_at_end >= -instant_.noise()) return first;
   const auto margin = [&](double x) {
     // Where no motion exists the mode has certainly changed.
     const bool solved = !instant_.solve(seat_, s_ + x * step_.h, step_.at(x));
@@ -388,7 +356,7 @@ void PushRun::take_seat(const Seat& seat, EventKind event) {
 
 /// Stops where a motion ends, known within the location of events.
 void PushRun::stop(const Obstacle& obstacle) {
-  error_ += 2.0 * location_ * instant_.speed();
+  error_ += 2.0 * control_.location() * instant_.speed();
   record_.stop(obstacle, s_);
 }
 

@@ -6,33 +6,22 @@
 namespace prehensile {
 namespace {
 
-/// Friction forces at the fingers that balance gravity can be written down if gravity is
-/// small: each point takes its share a of the force and b of the torque, |a| + |b| <= 1.
-bool obviously_held(const PlanarGrasp& grasp) {
-  Vec2 perpendicular = Vec2::Zero();
-  Vec2 first_moment = Vec2::Zero();
-  double total = 0.0;
-  double torque = 0.0;
-  for (int j = 0; j < grasp.count; ++j) {
-    const double r = std::sqrt(grasp.x[j] * grasp.x[j] + grasp.y[j] * grasp.y[j]);
-    const double B = grasp.bound[j];
-    total += B;
-    torque += B * r;
-    first_moment += B * Vec2(grasp.x[j], grasp.y[j]);
-    if (r > 0.0) perpendicular += B / r * Vec2(-grasp.y[j], grasp.x[j]);
+/// Slack of gravity, in units of the friction force, at which it counts as held.
+constexpr double kHeld = 1e-9;
+
+constexpr double kLooseTolerance = 1e-7;
+
+/// Only where the pusher advances at all its points is the motion of a held grasp known
+/// to be unique; a receding point may drag the object along or leave it.
+bool recedes_somewhere(const PlanarDrive& drive) {
+  for (int k = 0; k < drive.count; ++k) {
+    if (point_velocity(drive.V_HP, drive.p_HC[k]).dot(drive.n_H) < 0.0) return true;
   }
-  // total a + perpendicular b = -f,  first_moment x a + torque b = -m
-  const Vec2 f = -grasp.w_g.head<2>();
-  const double m = -grasp.w_g[2];
-  const double det = torque - cross(first_moment, perpendicular) / total;
-  if (m == 0.0 && first_moment.isZero()) return f.norm() <= total;
-  if (!(det > 0.0)) return false;
-  const double b = (m - cross(first_moment, f) / total) / det;
-  const Vec2 a = (f - b * perpendicular) / total;
-  return a.norm() + std::abs(b) <= 1.0;
+  return false;
 }
 
-Obstacle obstacle_of(InstantStatus status, bool gravity_held) {
+/// An instant is called ambiguous also where the pusher has to carry the object.
+Obstacle obstacle_of(InstantStatus status, const PlanarGrasp& grasp) {
   using enum TransitionStatus;
   switch (status) {
     case InstantStatus::kMoves:
@@ -44,7 +33,9 @@ Obstacle obstacle_of(InstantStatus status, bool gravity_held) {
     case InstantStatus::kDynamic:
       return {kFalls, EventKind::kGravityLost, "nothing balances gravity"};
     case InstantStatus::kAmbiguous:
-      if (gravity_held) return {kAmbiguous, {}, "two motions are possible"};
+      if (gravity_slack(grasp) > kHeld) {
+        return {kAmbiguous, {}, "two motions are possible"};
+      }
       return {kFalls, EventKind::kGravityLost, "the grasp alone does not hold gravity"};
     case InstantStatus::kJammed:
       return {kJammed, {}, "no motion is possible"};
@@ -59,7 +50,7 @@ Obstacle obstacle_of(InstantStatus status, bool gravity_held) {
 }  // namespace
 
 PushInstant::PushInstant(const Model& model, const LinearPush& push, const Grasp& start,
-                         double solver_tolerance)
+                         double tolerance)
     : model_(&model),
       contact_(&model.contacts[push.contact]),
       push_(push),
@@ -67,7 +58,7 @@ PushInstant::PushInstant(const Model& model, const LinearPush& push, const Grasp
       geometry_(model, *contact_, push.place),
       speed_(push.travel + std::abs(push.turn) * 0.5 * model.L),
       force_(model.F + model.mass * contact_->g_O.norm()) {
-  options_.tolerance = solver_tolerance;
+  options_.tolerance = std::clamp(1e-3 * tolerance / speed_, 1e-12, 1e-9);
 }
 
 PlanarPose PushInstant::pose(const Seat& seat, double s, const Vec2& q) const {
@@ -92,10 +83,15 @@ Obstacle PushInstant::solve(const Seat& seat, double s, const Vec2& q) noexcept 
   now.drive.V_HP = pusher_twist(push_, X_HO_start_, s);
 
   ++count_;
+  options_.probe_multiplicity = recedes_somewhere(now.drive);
   now.instant = solve_planar(now.grasp, now.drive, options_, &warm_);
-  const InstantStatus status = now.instant.status;
-  const Obstacle obstacle =
-      obstacle_of(status, status != InstantStatus::kAmbiguous || gravity_is_held());
+  if (now.instant.status == InstantStatus::kOutOfIterations) {
+    // A looser answer is better than none; the certificate has the last word.
+    PlanarSolveOptions loose = options_;
+    loose.tolerance = kLooseTolerance;
+    now.instant = solve_planar(now.grasp, now.drive, loose, &warm_);
+  }
+  const Obstacle obstacle = obstacle_of(now.instant.status, now.grasp);
   if (obstacle) {
     warm_.valid = false;
   } else {
@@ -118,10 +114,6 @@ void PushInstant::read(const Seat& seat, Answer& answer) const noexcept {
     answer.tangential_force += answer.instant.pusher[k].tangential_force;
   }
   answer.tilt_rate = seat.kind == SeatKind::kFlush ? 0.0 : V_PO[2];
-}
-
-bool PushInstant::gravity_is_held() const noexcept {
-  return obviously_held(answer().grasp) || gravity_slack(answer().grasp) > 0.0;
 }
 
 double PushInstant::friction_left(const Answer& answer) const {

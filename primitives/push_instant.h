@@ -25,15 +25,12 @@ struct ModeMargin {
 
 class PushInstant {
  public:
+  /// `tolerance` [m] of the end of the push.
   PushInstant(const Model& model, const LinearPush& push, const Grasp& start,
-              double solver_tolerance);
+              double tolerance);
 
   /// Solves the instant at the share s of the push with the object at q in the seat.
   Obstacle solve(const Seat& seat, double s, const Vec2& q) noexcept;
-
-  /// The grasp alone can bear gravity here. Without that the answer may not be unique
-  /// and the object would fall when the pusher leaves.
-  bool gravity_is_held() const noexcept;
 
   /// Keeps the last answer while others are sought, and brings it back.
   void set_aside() { now_ = 1 - now_; }
@@ -49,6 +46,10 @@ class PushInstant {
   const SeatGeometry& geometry() const { return geometry_; }
   PlanarPose pose(const Seat& seat, double s, const Vec2& q) const;
   double speed() const { return speed_; }
+
+  /// Margins and rates over `speed` below this are noise of the solver.
+  double noise() const { return 100.0 * options_.tolerance; }
+
   int count() const { return count_; }
 
  private:

@@ -58,12 +58,14 @@ TEST(DormandPrince, ContinuousExtensionIsOfFourthOrder) {
   EXPECT_NEAR(std::log2(worst(0.1) / worst(0.05)), 5.0, 0.3);  // local order
 }
 
-TEST(DormandPrince, EndRateStartsTheNextStepAndStiffnessIsTheGrowth) {
+TEST(DormandPrince, EndRateStartsTheNextStepAndTheProbeShowsTheGrowth) {
   const DormandPrinceStep step = step_from(0.4, exact(0.4), 0.01);
   Vec2 rate;
   spiral(0.41, step.y_end, rate);
   EXPECT_EQ(step.rate_end, rate);
-  EXPECT_NEAR(step.stiffness, std::hypot(0.6 * 0.41, 2.0), 1e-3);
+  EXPECT_GT(step.probe.norm(), 0.0);
+  EXPECT_NEAR(step.probe.dot(step.probe_rate) / step.probe.squaredNorm(), 0.6 * 0.41,
+              1e-6);
 }
 
 TEST(DormandPrince, SaysWhereThereIsNoRate) {

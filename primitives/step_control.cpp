@@ -1,0 +1,51 @@
+#include "primitives/step_control.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace prehensile {
+namespace {
+
+/// Least share of the tolerance that a step may spend. Very short steps, which a kink or
+/// a jump of the rate enforces, are rare.
+constexpr double kLeastShare = 0.05;
+
+}  // namespace
+
+StepControl::StepControl(double tolerance, double longest, double location)
+    : tolerance_(tolerance), longest_(longest), location_(location), natural_(longest) {}
+
+double StepControl::next(double s, double cap) {
+  const double left = 1.0 - s;
+  double h = std::min({natural_, cap, landing_});
+  landing_ = kNever;
+  if (blocked_ != kNever) {
+    const double free = blocked_ - s;
+    // Right before the block: look whether it is still there.
+    h = free <= location_ ? free + location_ : std::min(h, 0.5 * free);
+  }
+  return h >= left * (1.0 - 1e-12) ? left : h;
+}
+
+bool StepControl::accepts(double h, double error) {
+  const double allowed = tolerance_ * std::max(h, kLeastShare);
+  const bool accepted = error <= allowed || h <= location_;
+  // A step that was cut for another reason says nothing about longer ones.
+  if (!accepted || h >= 0.999 * natural_) {
+    const double factor = 0.9 * std::pow(allowed / std::max(error, 1e-300), 0.25);
+    natural_ = std::clamp(h * std::clamp(factor, 0.2, 4.0), 0.5 * location_, longest_);
+  }
+  return accepted;
+}
+
+bool StepControl::is_at_block(double s, double at) {
+  if (at - s <= 2.0 * location_) return true;
+  blocked_ = at;
+  return false;
+}
+
+void StepControl::passed(double s) {
+  if (s >= blocked_) blocked_ = kNever;
+}
+
+}  // namespace prehensile

@@ -1,0 +1,45 @@
+/// Lengths of the steps along a push: error control, landings on events, and the closing
+/// in on places beyond which there is no motion.
+#pragma once
+
+#include <limits>
+
+namespace prehensile {
+
+class StepControl {
+ public:
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
+
+  /// `tolerance` [m] of the whole push; `longest` step and `location` of events as shares
+  /// of the push.
+  StepControl(double tolerance, double longest, double location);
+
+  double location() const { return location_; }
+
+  /// Length of the next step from s; at most `cap`, and exactly 1 - s if it is the last.
+  double next(double s, double cap);
+
+  /// Whether a step of length h with this error [m] is good enough. Steps may spend their
+  /// share of the tolerance, so that all errors add up to it.
+  bool accepts(double h, double error);
+
+  /// The next step shall have this length.
+  void land(double length) { landing_ = length; }
+
+  /// There is no motion at `at`. True if that is as close to s as an event is located;
+  /// otherwise the next steps close in on it by halves.
+  bool is_at_block(double s, double at);
+
+  /// The push has come to s.
+  void passed(double s);
+
+ private:
+  double tolerance_;
+  double longest_;
+  double location_;
+  double natural_;           ///< length that error control asks for
+  double landing_ = kNever;  ///< wanted once
+  double blocked_ = kNever;  ///< share of the push at which no motion was found
+};
+
+}  // namespace prehensile

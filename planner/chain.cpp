@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mechanics/certificate.h"
+#include "planner/pad_kappas.h"
 
 namespace prehensile {
 namespace {
@@ -48,6 +49,14 @@ double common_kappa(const Chain& chain, const Intervals& intervals, double wante
   return kNan;
 }
 
+/// The interval of the set that contains a value chosen from it.
+KappaSet::Interval interval_around(const KappaSet& set, double kappa) {
+  for (int i = 0; i < set.count; ++i) {
+    if (kappa <= set.intervals[i].hi) return set.intervals[i];
+  }
+  return set.intervals[set.count - 1];
+}
+
 double travel_at(const Chain& chain, const Intervals& intervals, double kappa) {
   double travel = 0.0;
   for (int k = 0; k < chain.count; ++k) {
@@ -75,28 +84,41 @@ int points_along(const SearchModel& search, const Move& move) {
   return static_cast<int>(std::clamp(std::ceil(steps) + 1.0, 3.0, 24.0));
 }
 
-/// A uniform disc is at most 7 % weaker than the ellipsoid of the same F and c.
-constexpr Margin kDiscBelowEllipsoid{.force = 0.08, .torque_radius = 0.0};
+/// Friction bodies of whole flat pads from the disc to the line, relative to the
+/// ellipsoid of the same F and c, lie between 0.86 and 1.04: so far from the border the
+/// ellipsoid decides.
+constexpr double kSurelyHeld = 1.0 - 0.84;
+constexpr double kSurelyNotHeld = 1.0 - 1.06;
 
-/// Whether the pads alone hold gravity at points along a move; for a whole disc its ends
-/// decide.
-bool pads_hold_gravity(const SearchModel& search, const Move& move, int points) {
+bool pads_hold_gravity(const SearchModel& search, const PlanarPose& X_HO,
+                       const Vec2& g_O) {
   const Model& model = *search.model;
-  const Vec2& g_O = model.contacts[search.contacts[move.contact].contact].g_O;
+  if (!can_roll(model.scene.object) && model.region.is_whole(X_HO)) {
+    const double slack =
+        holding_slack(model, finger_in_object(X_HO), g_O, Margin::none());
+    if (slack >= kSurelyHeld) return true;
+    if (slack <= kSurelyNotHeld) return false;
+  }
+  return gravity_slack(grasp_at(model, X_HO, g_O)) > kFirmlyHeld;
+}
+
+/// Whether the pads alone hold gravity at points along a move.
+bool pads_hold_gravity(const SearchModel& search, const Move& move, int points) {
+  const Vec2& g_O = search.model->contacts[search.contacts[move.contact].contact].g_O;
   if (g_O.isZero(0.0)) return true;
-  const auto surely = [&](const FlatState& end) {
-    return holding_slack(model, end.p_OF, g_O, kDiscBelowEllipsoid) > 0.0;
-  };
-  if (search.exact_everywhere && surely(move.from) && surely(move.to)) return true;
   for (int i = 0; i < points; ++i) {
     const double share = static_cast<double>(i) / (points - 1);
-    const PlanarGrasp grasp = grasp_at(model, pose_along(move.from, move.to, share), g_O);
-    if (!(gravity_slack(grasp) > kFirmlyHeld)) return false;
+    if (!pads_hold_gravity(search, pose_along(move.from, move.to, share), g_O)) {
+      return false;
+    }
   }
   return true;
 }
 
+/// By the ellipsoid; a can's line of contact need not pass under the finger axis, so it
+/// is judged with the real pads only.
 bool is_held(const SearchModel& search, int contact, const Stop& stop) {
+  if (can_roll(search.model->scene.object)) return true;
   const Vec2& g_O = search.model->contacts[search.contacts[contact].contact].g_O;
   const Margin& margin = stop.given ? Margin::none() : search.margin;
   return holding_slack(*search.model, stop.p_OF, g_O, margin) > 0.0;
@@ -104,17 +126,23 @@ bool is_held(const SearchModel& search, int contact, const Stop& stop) {
 
 }  // namespace
 
-bool make_leg(const SearchModel& search, int contact, const Stop& from, const Stop& to,
+bool make_leg(const Steering& steering, int contact, const Stop& from, const Stop& to,
               Work& work, Leg& leg) noexcept {
-  const SearchContact& pusher = search.contacts[contact];
+  const SearchModel& search = steering.search;
   const Vec2 d = to.p_OF - from.p_OF;
   const double length = d.norm();
-  if (length < kShortestLeg) return false;
-  ++work.stick_tests;
-  leg.kappas = robust_kappas(pusher.stick, from.p_OF, -d / length, search.margin);
-  if (leg.kappas.empty() || !is_held(search, contact, from) ||
-      !is_held(search, contact, to) ||
-      !segment_on_object(*search.model, from.p_OF, to.p_OF)) {
+  if (length < kShortestLeg || !is_held(search, contact, from) ||
+      !is_held(search, contact, to)) {
+    return false;
+  }
+  if (steering.measured) {
+    leg.kappas = measured_kappas(search, contact, from.p_OF, to.p_OF, work);
+  } else {
+    ++work.stick_tests;
+    const StickContact& stick = search.contacts[contact].stick;
+    leg.kappas = robust_kappas(stick, from.p_OF, -d / length, search.margin);
+  }
+  if (leg.kappas.empty() || !segment_on_object(*search.model, from.p_OF, to.p_OF)) {
     return false;
   }
   for (int i = 0; i < leg.kappas.count; ++i) {
@@ -178,6 +206,41 @@ double exact_slack(const SearchModel& search, const Move& move, Work& work) noex
   return pads_hold_gravity(search, move, points)
              ? slack
              : -std::numeric_limits<double>::infinity();
+}
+
+void centre_chain(const SearchModel& search, double dtheta, double share,
+                  Chain& chain) noexcept {
+  double low = 0.0;
+  double width = 0.0;
+  std::array<KappaSet::Interval, Chain::kMaxLegs> intervals;
+  for (int k = 0; k < chain.count; ++k) {
+    intervals[k] = interval_around(chain.legs[k].kappas, chain.kappa[k]);
+    low += chain.legs[k].length * intervals[k].lo;
+    width += chain.legs[k].length * (intervals[k].hi - intervals[k].lo);
+  }
+  if (!(width > 0.0)) return;
+  const double position = std::clamp((search.model->c * dtheta - low) / width, 0.0, 1.0);
+  double travel = 0.0;
+  for (int k = 0; k < chain.count; ++k) {
+    const auto [lo, hi] = intervals[k];
+    chain.kappa[k] += share * (lo + position * (hi - lo) - chain.kappa[k]);
+    travel += chain.legs[k].length * std::hypot(1.0, chain.kappa[k]);
+  }
+  chain.cost = placements(chain) + travel / search.model->L;
+}
+
+bool make_chain_stick(const SearchModel& search, double theta_start, double dtheta,
+                      Chain& chain, Work& work) noexcept {
+  if (!solve_chain(search, dtheta, chain)) return false;
+  const auto sticks = [&] {
+    return chain_slack(search, chain, theta_start, work) >= -kStickTolerance;
+  };
+  if (sticks()) return true;
+  if (chain.count == 1) return false;
+  centre_chain(search, dtheta, 0.5, chain);
+  if (sticks()) return true;
+  centre_chain(search, dtheta, 1.0, chain);
+  return sticks();
 }
 
 double chain_slack(const SearchModel& search, const Chain& chain, double theta_start,

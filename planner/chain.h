@@ -21,6 +21,12 @@ struct Stop {
   bool given = false;  ///< start or goal
 };
 
+/// How legs are proposed.
+struct Steering {
+  SearchModel search;     ///< contacts, and the margin that the proposals keep
+  bool measured = false;  ///< rotations from the real pads instead of the closed form
+};
+
 /// One straight push of a chain.
 struct Leg {
   int contact = -1;                             ///< index in SearchModel::contacts
@@ -42,13 +48,24 @@ inline constexpr double kShortestLeg = 1e-5;
 
 /// The leg from -> to by a contact; false if it is too short, leaves the object, loses
 /// gravity at an end, or sticks for no kappa. No heap.
-bool make_leg(const SearchModel& search, int contact, const Stop& from, const Stop& to,
+bool make_leg(const Steering& steering, int contact, const Stop& from, const Stop& to,
               Work& work, Leg& leg) noexcept;
 
 /// Chooses kappas for a total rotation dtheta [rad] and the cost; false if the chain
 /// cannot produce it. Legs with several intervals are tried in all combinations up to
 /// 256. No heap.
 bool solve_chain(const SearchModel& search, double dtheta, Chain& chain) noexcept;
+
+/// Moves the kappas of a solved chain by this share towards those that lie equally deep
+/// in their intervals and have the same sum: longer, but farther from slipping. No heap.
+void centre_chain(const SearchModel& search, double dtheta, double share,
+                  Chain& chain) noexcept;
+
+/// Solves a chain, then looks for kappas with which it sticks with the real pad over the
+/// margin of `search`: the shortest, half-way to the middle of the
+/// intervals, the middle. False if none of them sticks. No heap.
+bool make_chain_stick(const SearchModel& search, double theta_start, double dtheta,
+                      Chain& chain, Work& work) noexcept;
 
 /// Placements of the chain: runs of legs by one contact.
 int placements(const Chain& chain) noexcept;

@@ -11,6 +11,7 @@ constexpr double kBucket = 0.3;       // [rad]
 constexpr double kMostRotation = 15;  // [rad] to either side that buckets tell apart
 constexpr int kBuckets = 100;
 constexpr std::size_t kMostLabels = 200'000;
+constexpr int kMostChecks = 2000;  // of whole chains with the real pad
 
 /// One interval of one leg between two nodes.
 struct Edge {
@@ -35,10 +36,11 @@ struct QueueEntry {
 
 class LabelSearch {
  public:
-  LabelSearch(const SearchModel& search, const std::vector<Vec2>& nodes,
-              const FlatState& start, const GoalPlaces& goals, const Limits& limits,
-              Work& work)
-      : search_(search),
+  LabelSearch(const Steering& steering, const SearchModel& search,
+              const std::vector<Vec2>& nodes, const FlatState& start,
+              const GoalPlaces& goals, const Limits& limits, Work& work)
+      : steering_(steering),
+        search_(search),
         nodes_(nodes),
         start_(start),
         goals_(goals),
@@ -54,7 +56,8 @@ class LabelSearch {
 
   std::optional<FoundChain> run() {
     push({0.0, 0.0, 0.0, static_cast<int>(nodes_.size()) - 1, -1, -1, 0});
-    while (!queue_.empty() && !limits_.reached() && labels_.size() < kMostLabels) {
+    while (!queue_.empty() && !limits_.reached() && labels_.size() < kMostLabels &&
+           checks_ < kMostChecks) {
       const QueueEntry next = queue_.top();
       queue_.pop();
       if (best_ && next.estimate >= best_->chain.cost) break;
@@ -128,7 +131,7 @@ class LabelSearch {
       for (int to = 0; to + 1 < static_cast<int>(nodes_.size()); ++to) {
         Leg leg;
         if (to == node ||
-            !make_leg(search_, contact, stop_at(node), stop_at(to), work_, leg)) {
+            !make_leg(steering_, contact, stop_at(node), stop_at(to), work_, leg)) {
           continue;
         }
         append_edges(leg, to, rows_[row]);
@@ -168,7 +171,7 @@ class LabelSearch {
     for (int place = 0; place < goals_.count; ++place) {
       for (int contact = 0; contact < contacts_; ++contact) {
         Leg leg;
-        if (make_leg(search_, contact, stop_at(label.node),
+        if (make_leg(steering_, contact, stop_at(label.node),
                      {goals_.places[place].p_OF, true}, work_, leg)) {
           try_last_leg(label, index, leg, place);
         }
@@ -195,16 +198,21 @@ class LabelSearch {
     scratch_.legs[scratch_.count - 1] = last;
     for (int i = index; labels_[i].parent >= 0; i = labels_[i].parent) {
       const Label& label = labels_[i];
-      make_leg(search_, label.contact, stop_at(labels_[label.parent].node),
+      make_leg(steering_, label.contact, stop_at(labels_[label.parent].node),
                stop_at(label.node), work_, scratch_.legs[label.depth - 1]);
     }
     const double dtheta = goals_.places[place].theta[angle] - start_.theta;
     if (!solve_chain(search_, dtheta, scratch_)) return;
     if (best_ && scratch_.cost >= best_->chain.cost) return;
-    if (chain_slack(search_, scratch_, start_.theta, work_) < -kStickTolerance) return;
+    ++checks_;
+    if (!make_chain_stick(search_, start_.theta, dtheta, scratch_, work_)) {
+      return;
+    }
+    if (best_ && scratch_.cost >= best_->chain.cost) return;
     best_ = {scratch_, place, angle};
   }
 
+  const Steering& steering_;
   const SearchModel& search_;
   std::vector<Vec2> nodes_;
   const FlatState& start_;
@@ -219,16 +227,18 @@ class LabelSearch {
   std::vector<Label> labels_;
   std::priority_queue<QueueEntry> queue_;
   Chain scratch_;
+  int checks_ = 0;
   std::optional<FoundChain> best_;
 };
 
 }  // namespace
 
-std::optional<FoundChain> search_labels(const SearchModel& search,
+std::optional<FoundChain> search_labels(const Steering& steering,
+                                        const SearchModel& search,
                                         const std::vector<Vec2>& nodes,
                                         const FlatState& start, const GoalPlaces& goals,
                                         const Limits& limits, Work& work) {
-  return LabelSearch(search, nodes, start, goals, limits, work).run();
+  return LabelSearch(steering, search, nodes, start, goals, limits, work).run();
 }
 
 }  // namespace prehensile

@@ -21,9 +21,11 @@ struct FoundChain {
   int place = -1, angle = -1;
 };
 
-/// The cheapest chain found whose pushes stick with the real pad; none if the search runs
-/// dry or a limit is reached before.
-std::optional<FoundChain> search_labels(const SearchModel& search,
+/// The cheapest chain found that `steering` proposes and whose pushes stick with the real
+/// pad over the margin of `search`; none if the search runs dry or a limit is reached
+/// before. Both are of the same model.
+std::optional<FoundChain> search_labels(const Steering& steering,
+                                        const SearchModel& search,
                                         const std::vector<Vec2>& nodes,
                                         const FlatState& start, const GoalPlaces& goals,
                                         const Limits& limits, Work& work);

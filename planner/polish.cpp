@@ -36,7 +36,7 @@ int search_contact(const SearchModel& search, const LinearPush& push) {
 }
 
 /// The chain of a stretch through these way-points, solved; false if there is none.
-bool chain_of(const SearchModel& search, const Stretch& stretch,
+bool chain_of(const Steering& steering, const Stretch& stretch,
               std::span<const double> way_points, Work& work, Chain& chain) {
   chain.count = static_cast<int>(stretch.contacts.size());
   Stop from{stretch.start.p_OF, true};
@@ -44,39 +44,41 @@ bool chain_of(const SearchModel& search, const Stretch& stretch,
     const bool last = k + 1 == chain.count;
     const Stop to = last ? Stop{stretch.end.p_OF, true}
                          : Stop{{way_points[2 * k], way_points[2 * k + 1]}};
-    if (!make_leg(search, stretch.contacts[k], from, to, work, chain.legs[k])) {
+    if (!make_leg(steering, stretch.contacts[k], from, to, work, chain.legs[k])) {
       return false;
     }
     from = to;
   }
-  return solve_chain(search, stretch.end.theta - stretch.start.theta, chain);
+  return solve_chain(steering.search, stretch.end.theta - stretch.start.theta, chain);
 }
 
 /// The best chain of a stretch that still sticks with the real pad; false if it gains
 /// nothing.
-bool shorten(const SearchModel& search, const Limits& limits, Work& work,
+bool shorten(const Steering& steering, const Limits& limits, Work& work,
              const Stretch& stretch, Chain& chain) {
-  if (!chain_of(search, stretch, stretch.way_points, work, chain)) return false;
+  if (!chain_of(steering, stretch, stretch.way_points, work, chain)) return false;
   const double before = chain.cost;
   NonlinearProgram program;
   program.start = stretch.way_points;
   program.objective = [&](std::span<const double> x, std::span<double> /*gradient*/) {
-    const bool possible = !limits.reached() && chain_of(search, stretch, x, work, chain);
+    const bool possible =
+        !limits.reached() && chain_of(steering, stretch, x, work, chain);
     return possible ? chain.cost : kInfeasible;
   };
   const NlpResult result =
       minimise_nlopt(program, LocalMethod::kSubplex,
                      {.tolerance = 1e-6, .max_evaluations = kEvaluations}, kFirstStep);
   if (result.x.size() != stretch.way_points.size()) return false;
-  return chain_of(search, stretch, result.x, work, chain) &&
+  return chain_of(steering, stretch, result.x, work, chain) &&
          chain.cost < before * (1.0 - kWorthwhile) &&
-         chain_slack(search, chain, stretch.start.theta, work) >= -kStickTolerance;
+         chain_slack(steering.search, chain, stretch.start.theta, work) >=
+             -kStickTolerance;
 }
 
 /// Same, with one push of the stretch left out.
-bool drop_a_push(const SearchModel& search, Work& work, const Stretch& stretch,
+bool drop_a_push(const Steering& steering, Work& work, const Stretch& stretch,
                  Chain& chain) {
-  if (!chain_of(search, stretch, stretch.way_points, work, chain)) return false;
+  if (!chain_of(steering, stretch, stretch.way_points, work, chain)) return false;
   const double before = chain.cost;
   for (std::size_t k = 0; k < stretch.contacts.size(); ++k) {
     Stretch shorter = stretch;
@@ -84,9 +86,10 @@ bool drop_a_push(const SearchModel& search, Work& work, const Stretch& stretch,
     const std::size_t point = std::min(k, stretch.contacts.size() - 2);
     const auto x = shorter.way_points.begin() + static_cast<std::ptrdiff_t>(2 * point);
     shorter.way_points.erase(x, x + 2);
-    if (chain_of(search, shorter, shorter.way_points, work, chain) &&
+    if (chain_of(steering, shorter, shorter.way_points, work, chain) &&
         chain.cost <= before &&
-        chain_slack(search, chain, stretch.start.theta, work) >= -kStickTolerance) {
+        chain_slack(steering.search, chain, stretch.start.theta, work) >=
+            -kStickTolerance) {
       return true;
     }
   }
@@ -129,11 +132,11 @@ std::vector<PlannedPush> polished(const SearchModel& search, const Limits& limit
   while (pushes.size() >= 2 && pushes.size() <= kMostPushes && !limits.reached()) {
     Stretch stretch;
     if (!read_stretch(search, pushes, stretch)) break;
-    if (drop_a_push(search, work, stretch, chain)) {
+    if (drop_a_push({search}, work, stretch, chain)) {
       pushes = pushes_of(search, stretch, chain);
       continue;
     }
-    if (shorten(search, limits, work, stretch, chain)) {
+    if (shorten({search}, limits, work, stretch, chain)) {
       pushes = pushes_of(search, stretch, chain);
     }
     break;

@@ -4,25 +4,18 @@
 #include <cmath>
 #include <limits>
 
-#include "planner/label_search.h"
-#include "planner/lattice.h"
+#include "planner/chain_search.h"
 #include "planner/roll_step.h"
 
 namespace prehensile {
 namespace {
-
-/// A plan this close to the bound for two placements is not worth a search for better
-/// ones.
-constexpr double kGoodEnough = 1.05;
-
-constexpr int kCoarseNodes = 200;
-constexpr int kFineNodes = 800;
 
 double flat_distance(const SearchModel& search, const FlatState& a, const FlatState& b) {
   return std::hypot((b.p_OF - a.p_OF).norm(), search.model->c * (b.theta - a.theta));
 }
 
 bool both_ends_held(const SearchModel& search, const Move& move) {
+  if (can_roll(search.model->scene.object)) return true;  // exact_slack decides
   const Vec2& g_O = search.model->contacts[search.contacts[move.contact].contact].g_O;
   return holding_slack(*search.model, move.from.p_OF, g_O, Margin::none()) > 0.0 &&
          holding_slack(*search.model, move.to.p_OF, g_O, Margin::none()) > 0.0;
@@ -42,66 +35,6 @@ std::optional<Move> best_contact(const SearchModel& search, const FlatState& fro
     best = move;
   }
   return best;
-}
-
-std::optional<FoundChain> chain_through(const SearchModel& search, const FlatState& start,
-                                        const GoalPlaces& goals, const WayPoint& point,
-                                        Work& work) {
-  FoundChain found{{}, point.place, point.angle};
-  const GoalPlace& goal = goals.places[point.place];
-  Chain& chain = found.chain;
-  chain.count = 2;
-  const bool possible = make_leg(search, point.first, {start.p_OF, true}, {point.p_OF},
-                                 work, chain.legs[0]) &&
-                        make_leg(search, point.second, {point.p_OF}, {goal.p_OF, true},
-                                 work, chain.legs[1]) &&
-                        solve_chain(search, goal.theta[point.angle] - start.theta, chain);
-  if (!possible) return std::nullopt;
-  if (chain_slack(search, chain, start.theta, work) < -kStickTolerance) {
-    return std::nullopt;
-  }
-  return found;
-}
-
-/// The cheapest of the way-points whose two pushes stick with the real pad.
-std::optional<FoundChain> first_that_sticks(const SearchModel& search,
-                                            const FlatState& start,
-                                            const GoalPlaces& goals,
-                                            const BestWayPoints& points, Work& work) {
-  for (int i = 0; i < points.count(); ++i) {
-    if (auto found = chain_through(search, start, goals, points[i], work)) return found;
-  }
-  return std::nullopt;
-}
-
-bool good_enough(const SearchModel& search, const FlatState& start,
-                 const GoalPlaces& goals, const std::optional<FoundChain>& found) {
-  if (!found) return false;
-  const GoalPlace& nearest = goals.places[0];
-  const double distance = flat_distance(search, start, {nearest.p_OF, nearest.theta[0]});
-  return found->chain.cost <= kGoodEnough * (2.0 + distance / search.model->L);
-}
-
-/// Stages of growing effort; none of them is entered once a plan is good enough.
-std::optional<FoundChain> search_chains(const SearchModel& search, const FlatState& start,
-                                        const GoalPlaces& goals, const Limits& limits,
-                                        Work& work) {
-  BestWayPoints points;
-  for (int place = 0; place < goals.count && !limits.reached(); ++place) {
-    add_crossings(search, start, goals, place, work, points);
-  }
-  auto found = first_that_sticks(search, start, goals, points, work);
-  if (good_enough(search, start, goals, found) || limits.reached()) return found;
-
-  const std::vector<Vec2> nodes = lattice_nodes(search, kCoarseNodes);
-  add_nodes(search, nodes, start, goals, work, points);
-  found = first_that_sticks(search, start, goals, points, work);
-  if (found || limits.reached()) return found;
-
-  found = search_labels(search, nodes, start, goals, limits, work);
-  if (found || limits.reached()) return found;
-  return search_labels(search, lattice_nodes(search, kFineNodes), start, goals, limits,
-                       work);
 }
 
 void append_chain(const SearchModel& search, const FlatState& start, const Chain& chain,

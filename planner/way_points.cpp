@@ -67,9 +67,10 @@ void BestWayPoints::add(const WayPoint& point) noexcept {
   count_ = std::min(count_ + 1, kCapacity);
 }
 
-void add_way_point(const SearchModel& search, double theta_start, const GoalPlaces& goals,
+void add_way_point(const Steering& steering, double theta_start, const GoalPlaces& goals,
                    int place, const Leg& first, const Leg& second, Chain& chain,
                    BestWayPoints& best) noexcept {
+  const SearchModel& search = steering.search;
   const double least = 1.0 + (first.contact != second.contact) +
                        (first.length + second.length) / search.model->L;
   if (least >= best.worst_cost()) return;
@@ -83,9 +84,10 @@ void add_way_point(const SearchModel& search, double theta_start, const GoalPlac
   }
 }
 
-void add_crossings(const SearchModel& search, const FlatState& start,
+void add_crossings(const Steering& steering, const FlatState& start,
                    const GoalPlaces& goals, int place, Work& work,
                    BestWayPoints& best) noexcept {
+  const SearchModel& search = steering.search;
   const Vec2& goal = goals.places[place].p_OF;
   const int contacts = static_cast<int>(search.contacts.size());
   Chain chain;
@@ -97,9 +99,9 @@ void add_crossings(const SearchModel& search, const FlatState& start,
         Vec2 p_OF;
         Leg first, second;
         if (crossing(start.p_OF, from.e[k / to.count], goal, to.e[k % to.count], p_OF) &&
-            make_leg(search, i, {start.p_OF, true}, {p_OF}, work, first) &&
-            make_leg(search, j, {p_OF}, {goal, true}, work, second)) {
-          add_way_point(search, start.theta, goals, place, first, second, chain, best);
+            make_leg(steering, i, {start.p_OF, true}, {p_OF}, work, first) &&
+            make_leg(steering, j, {p_OF}, {goal, true}, work, second)) {
+          add_way_point(steering, start.theta, goals, place, first, second, chain, best);
         }
       }
     }

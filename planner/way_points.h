@@ -37,12 +37,12 @@ class BestWayPoints {
 
 /// Adds the way-point with all windings of its goal place, if the two legs (already made)
 /// reach it. `chain` is scratch space. No heap.
-void add_way_point(const SearchModel& search, double theta_start, const GoalPlaces& goals,
+void add_way_point(const Steering& steering, double theta_start, const GoalPlaces& goals,
                    int place, const Leg& first, const Leg& second, Chain& chain,
                    BestWayPoints& best) noexcept;
 
 /// Adds all crossings for one goal place. No heap.
-void add_crossings(const SearchModel& search, const FlatState& start,
+void add_crossings(const Steering& steering, const FlatState& start,
                    const GoalPlaces& goals, int place, Work& work,
                    BestWayPoints& best) noexcept;
 

@@ -1,0 +1,144 @@
+#include "planner/chain_search.h"
+
+#include <array>
+#include <cmath>
+
+#include "planner/lattice.h"
+
+namespace prehensile {
+namespace {
+
+/// A plan this close to the bound for two placements is not worth a search for better
+/// ones.
+constexpr double kGoodEnough = 1.05;
+
+/// Margins of the closed form, in units of the plan's, for pads that are not isotropic.
+constexpr std::array<double, 3> kSteeringMargins = {3.0, 1.75, 1.0};
+
+/// Lattice nodes over the object, and by the side of the lattice around start and goal.
+struct Fineness {
+  int nodes, local_nodes_per_side;
+};
+constexpr Fineness kCoarse = {200, 12};
+constexpr Fineness kFine = {800, 20};
+constexpr Fineness kSparse = {50, 7};  // for measured rotations, which are dear
+
+class ChainSearch {
+ public:
+  ChainSearch(const SearchModel& search, const FlatState& start, const GoalPlaces& goals,
+              const Limits& limits, Work& work)
+      : search_(search), start_(start), goals_(goals), limits_(limits), work_(work) {
+    if (search.exact_everywhere) {
+      steering_.push_back({search});
+      return;
+    }
+    for (const double scale : kSteeringMargins) {
+      steering_.push_back({prepare_search(*search.model, search.margin.scaled(scale))});
+    }
+  }
+
+  std::optional<FoundChain> run() {
+    for (const Steering& steering : steering_) {
+      try_crossings(steering);
+      if (good_enough() || limits_.reached()) return found_;
+    }
+    for (const Steering& steering : steering_) {
+      try_nodes(steering);
+      if (good_enough() || limits_.reached()) return found_;
+    }
+    for (const Steering& steering : steering_) {
+      if (found_ || limits_.reached()) return found_;
+      try_labels(steering, kCoarse);
+    }
+    if (found_ || limits_.reached()) return found_;
+    if (search_.exact_everywhere) {
+      try_labels(steering_.back(), kFine);
+    } else {
+      try_labels({search_, true}, kSparse);
+    }
+    return found_;
+  }
+
+ private:
+  bool good_enough() const {
+    if (!found_) return false;
+    const GoalPlace& nearest = goals_.places[0];
+    const double distance =
+        std::hypot((nearest.p_OF - start_.p_OF).norm(),
+                   search_.model->c * (nearest.theta[0] - start_.theta));
+    return found_->chain.cost <= kGoodEnough * (2.0 + distance / search_.model->L);
+  }
+
+  void keep(std::optional<FoundChain> found) {
+    if (found && (!found_ || found->chain.cost < found_->chain.cost)) {
+      found_ = std::move(found);
+    }
+  }
+
+  std::vector<Vec2> nodes(const Fineness& fineness) const {
+    std::vector<Vec2> nodes = lattice_nodes(search_, fineness.nodes);
+    add_local_nodes(search_, start_.p_OF, goals_.places[0].p_OF,
+                    fineness.local_nodes_per_side, nodes);
+    return nodes;
+  }
+
+  std::optional<FoundChain> chain_through(const Steering& steering,
+                                          const WayPoint& point) {
+    FoundChain found{{}, point.place, point.angle};
+    const GoalPlace& goal = goals_.places[point.place];
+    Chain& chain = found.chain;
+    chain.count = 2;
+    const double dtheta = goal.theta[point.angle] - start_.theta;
+    const bool sticks = make_leg(steering, point.first, {start_.p_OF, true}, {point.p_OF},
+                                 work_, chain.legs[0]) &&
+                        make_leg(steering, point.second, {point.p_OF}, {goal.p_OF, true},
+                                 work_, chain.legs[1]) &&
+                        make_chain_stick(search_, start_.theta, dtheta, chain, work_);
+    return sticks ? std::optional(found) : std::nullopt;
+  }
+
+  /// Keeps the cheapest of the way-points whose two pushes stick with the real pad.
+  void keep_first_that_sticks(const Steering& steering, const BestWayPoints& points) {
+    for (int i = 0; i < points.count(); ++i) {
+      if (auto found = chain_through(steering, points[i])) return keep(std::move(found));
+    }
+  }
+
+  void try_crossings(const Steering& steering) {
+    BestWayPoints points;
+    for (int place = 0; place < goals_.count && !limits_.reached(); ++place) {
+      add_crossings(steering, start_, goals_, place, work_, points);
+    }
+    keep_first_that_sticks(steering, points);
+  }
+
+  void try_nodes(const Steering& steering) {
+    BestWayPoints points;
+    add_nodes(steering, nodes(kCoarse), start_, goals_, work_, points);
+    keep_first_that_sticks(steering, points);
+  }
+
+  void try_labels(const Steering& steering, const Fineness& fineness) {
+    keep(search_labels(steering, search_, nodes(fineness), start_, goals_, limits_,
+                       work_));
+  }
+
+  const SearchModel& search_;
+  const FlatState& start_;
+  const GoalPlaces& goals_;
+  const Limits& limits_;
+  Work& work_;
+  std::vector<Steering> steering_;
+  std::optional<FoundChain> found_;
+};
+
+}  // namespace
+
+std::optional<FoundChain> search_chains(const SearchModel& search, const FlatState& start,
+                                        const GoalPlaces& goals, const Limits& limits,
+                                        Work& work) {
+  if (goals.count == 0) return std::nullopt;
+  return ChainSearch(search, start, goals, limits, work).run();
+}
+
+}  // namespace prehensile

@@ -1,0 +1,22 @@
+/// Plans of two and more pushes: stages of growing effort over chains of straight pushes.
+/// Internal to the own planner.
+#pragma once
+
+#include <optional>
+
+#include "planner/label_search.h"
+
+namespace prehensile {
+
+/// The first chain found whose pushes stick with the real pad over the margin of
+/// `search`, near the cheapest of its kind; none if every stage ends without one or a
+/// limit is reached.
+///
+/// Pads that are not isotropic deflect friction from the motion, which the closed form
+/// does not know. For them every stage proposes chains for wider margins first, so that
+/// most proposals pass with the real pad.
+std::optional<FoundChain> search_chains(const SearchModel& search, const FlatState& start,
+                                        const GoalPlaces& goals, const Limits& limits,
+                                        Work& work);
+
+}  // namespace prehensile

@@ -21,7 +21,7 @@ struct Fineness {
 };
 constexpr Fineness kCoarse = {200, 12};
 constexpr Fineness kFine = {800, 20};
-constexpr Fineness kSparse = {50, 7};  // for measured rotations, which are dear
+constexpr Fineness kSparse = {50, 7};  // for measured rotations, which cost most
 
 class ChainSearch {
  public:
@@ -43,19 +43,16 @@ class ChainSearch {
       if (good_enough() || limits_.reached()) return found_;
     }
     for (const Steering& steering : steering_) {
-      try_nodes(steering);
+      try_nodes(steering, kCoarse);
       if (good_enough() || limits_.reached()) return found_;
     }
+    if (found_) return found_;
+    if (!search_.exact_everywhere) try_measured();
     for (const Steering& steering : steering_) {
       if (found_ || limits_.reached()) return found_;
       try_labels(steering, kCoarse);
     }
-    if (found_ || limits_.reached()) return found_;
-    if (search_.exact_everywhere) {
-      try_labels(steering_.back(), kFine);
-    } else {
-      try_labels({search_, true}, kSparse);
-    }
+    if (!found_ && !limits_.reached()) try_labels(steering_.back(), kFine);
     return found_;
   }
 
@@ -112,10 +109,16 @@ class ChainSearch {
     keep_first_that_sticks(steering, points);
   }
 
-  void try_nodes(const Steering& steering) {
+  void try_nodes(const Steering& steering, const Fineness& fineness) {
     BestWayPoints points;
-    add_nodes(steering, nodes(kCoarse), start_, goals_, work_, points);
+    add_nodes(steering, nodes(fineness), start_, goals_, work_, points);
     keep_first_that_sticks(steering, points);
+  }
+
+  void try_measured() {
+    const Steering steering{search_, true};
+    try_nodes(steering, kSparse);
+    if (!found_ && !limits_.reached()) try_labels(steering, kSparse);
   }
 
   void try_labels(const Steering& steering, const Fineness& fineness) {

@@ -1,0 +1,292 @@
+/// Error against run time of the instant solvers, one CSV line per run.
+///
+/// Study `pads`: how many points a pad needs. Answers over k points per pad, and of the
+/// closed form over the ellipsoid, against the exact solver with 64 points.
+/// Study `generators`: what polyhedral friction costs. The paper's formulation through
+/// Ipopt with g generators against the exact solver over the same 4 points per pad.
+///
+/// Every run gives a line: refusals and failures too, with no error but with a status.
+/// Usage: bench_instant [--quick] [--instances N] [--ipopt-instances N] [--seed S]
+///                      [-o FILE]
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "benchmarks/measure.h"
+#include "mechanics/certificate.h"
+#include "mechanics/limit_surface.h"
+#include "mechanics/planar_instant.h"
+#include "mechanics/reference.h"
+#include "problems/random_instants.h"
+
+namespace prehensile::benchmarks {
+namespace {
+
+struct Options {
+  int instances = 1000;
+  int ipopt_instances = 100;
+  std::uint64_t seed = 1;
+  std::vector<int> generators = {4, 8, 16, 32, 64};
+  int batches = 5;
+  const char* file = nullptr;
+};
+
+constexpr int kFinestPad = 64;
+constexpr int kPointsForGenerators = 4;
+
+struct Run {
+  const char* study;
+  const char* solver;
+  int setting;  // points per pad or generators; 0: none
+  int instance;
+  InstantStatus status;
+  InstantStatus reference_status;
+  double force_error = kNan;  // of the push force vector, in capacities of the pads
+  double twist_error = kNan;  // in push rates, turns weighed by the pads' lever
+  double residual = kNan;     // the solver's own
+  double certificate = kNan;  // by separate code; of the circular cone
+  double time_us = kNan;
+  int iterations = 0;
+};
+
+double push_rate(const PlanarDrive& drive) {
+  return std::max(point_velocity(drive.V_HP, drive.p_HC[0]).norm(),
+                  point_velocity(drive.V_HP, drive.p_HC[1]).norm());
+}
+
+/// Largest torque per largest force of the pads about the finger axis [m].
+double torque_radius(const PlanarGrasp& grasp) {
+  double torque = 0.0;
+  for (int j = 0; j < grasp.count; ++j) {
+    torque += grasp.bound[j] * std::hypot(grasp.x[j], grasp.y[j]);
+  }
+  return torque / grasp.capacity();
+}
+
+/// An instance with its answer to compare with.
+struct Reference {
+  RandomInstant instant;
+  PlanarInstant answer;
+  double lever;
+};
+
+Reference reference_for(const Options& options, int index, int points) {
+  Reference reference;
+  reference.instant = random_instant(options.seed, index, {.points_per_pad = points});
+  reference.answer = solve_planar(reference.instant.grasp, reference.instant.drive);
+  reference.lever = torque_radius(reference.instant.grasp);
+  return reference;
+}
+
+void compare(const Reference& reference, const PlanarInstant& answer, Run& run) {
+  run.status = answer.status;
+  run.reference_status = reference.answer.status;
+  run.residual = answer.residual;
+  run.iterations = answer.iterations;
+  if (!usable(answer.status) || !usable(reference.answer.status)) return;
+  const auto& [grasp, drive] = reference.instant;
+  const PlanarTwist V = answer.V_HO - reference.answer.V_HO;
+  run.force_error =
+      (answer.w_push - reference.answer.w_push).head<2>().norm() / grasp.capacity();
+  run.twist_error = Vec3(V[0], V[1], reference.lever * V[2]).norm() / push_rate(drive);
+}
+
+/// Times `solve` and compares its answer, which is left in `answer`.
+template <typename Solve>
+Run measured(const Reference& reference, int batches, const Solve& solve,
+             PlanarInstant& answer) {
+  Run run{};
+  volatile double used = 0.0;  // keeps the calls from being optimised away
+  run.time_us = time_us([&] { used = solve().residual; }, batches);
+  answer = solve();
+  compare(reference, answer, run);
+  return run;
+}
+
+Run exact_run(const Options& options, const Reference& reference,
+              const RandomInstant& instant) {
+  const auto& [grasp, drive] = instant;
+  PlanarInstant answer;
+  Run run = measured(
+      reference, options.batches, [&] { return solve_planar(grasp, drive); }, answer);
+  run.certificate = certify(grasp, drive, answer).worst;
+  run.solver = "exact";
+  return run;
+}
+
+Run closed_run(const Options& options, const Reference& reference) {
+  const auto& [grasp, drive] = reference.instant;
+  const LimitSurface surface{grasp.capacity(), reference.lever};
+  PlanarInstant answer;
+  Run run = measured(
+      reference, options.batches,
+      [&] { return solve_limit_surface(surface, grasp.w_g, drive); }, answer);
+  run.certificate = limit_surface_residual(surface, grasp.w_g, drive, answer);
+  run.solver = "closed";
+  return run;
+}
+
+Run ipopt_run(const Reference& reference, int generators) {
+  const auto& [grasp, drive] = reference.instant;
+  PlanarInstant answer;
+  Run run = measured(
+      reference, 1,
+      [&] { return solve_reference(grasp, drive, {.generators = generators}); }, answer);
+  run.certificate = certify(grasp, drive, answer).worst;
+  run.solver = "ipopt";
+  run.setting = generators;
+  return run;
+}
+
+void study_pads(const Options& options, std::vector<Run>& runs) {
+  const auto add = [&runs](Run run, int index, int setting) {
+    run.study = "pads";
+    run.instance = index;
+    run.setting = setting;
+    runs.push_back(run);
+  };
+  for (int index = 0; index < options.instances; ++index) {
+    const Reference reference = reference_for(options, index, kFinestPad);
+    add(closed_run(options, reference), index, 0);
+    for (const int points : {1, 2, 4, 8, 16, 32, 64}) {
+      const RandomInstant instant =
+          random_instant(options.seed, index, {.points_per_pad = points});
+      add(exact_run(options, reference, instant), index, points);
+    }
+  }
+}
+
+void study_generators(const Options& options, std::vector<Run>& runs) {
+  const auto add = [&runs](Run run, int index) {
+    run.study = "generators";
+    run.instance = index;
+    if (run.setting == 0) run.setting = kPointsForGenerators;
+    runs.push_back(run);
+  };
+  for (int index = 0; index < options.ipopt_instances; ++index) {
+    const Reference reference = reference_for(options, index, kPointsForGenerators);
+    add(exact_run(options, reference, reference.instant), index);
+    for (const int generators : options.generators) {
+      add(ipopt_run(reference, generators), index);
+    }
+  }
+}
+
+void write_csv(const Options& options, const std::vector<Run>& runs, std::FILE* out) {
+  std::fputs(
+      "study,solver,setting,seed,instance,status,reference_status,force_error,"
+      "twist_error,residual,certificate,time_us,iterations,batches,compiler,cpu\n",
+      out);
+  const std::string compiler = field(compiler_name());
+  const std::string cpu = field(cpu_name());
+  for (const Run& run : runs) {
+    std::fprintf(
+        out, "%s,%s,%d,%llu,%d,%s,%s,%.6g,%.6g,%.3g,%.3g,%.4g,%d,%d,%s,%s\n", run.study,
+        run.solver, run.setting, static_cast<unsigned long long>(options.seed),
+        run.instance, name(run.status).data(), name(run.reference_status).data(),
+        run.force_error, run.twist_error, run.residual, run.certificate, run.time_us,
+        run.iterations, options.batches, compiler.c_str(), cpu.c_str());
+  }
+}
+
+/// One line per study, solver and setting. `asked`: runs whose reference has an answer;
+/// `answered`: those of them that gave one too.
+void write_summary(const std::vector<Run>& runs, std::FILE* out) {
+  std::fprintf(out, "%-11s%-7s%8s%7s%9s%11s%10s%11s%10s%11s%10s\n", "study", "solver",
+               "setting", "asked", "answered", "force med", "p95", "twist med", "p95",
+               "us med", "p95");
+  std::vector<const Run*> left;
+  for (const Run& run : runs) left.push_back(&run);
+  while (!left.empty()) {
+    const Run& first = *left.front();
+    std::vector<double> force, twist, time;
+    int asked = 0;
+    std::erase_if(left, [&](const Run* run) {
+      if (std::strcmp(run->study, first.study) != 0 ||
+          std::strcmp(run->solver, first.solver) != 0 || run->setting != first.setting) {
+        return false;
+      }
+      if (!usable(run->reference_status)) return true;
+      ++asked;
+      time.push_back(run->time_us);
+      if (!std::isnan(run->force_error)) {
+        force.push_back(run->force_error);
+        twist.push_back(run->twist_error);
+      }
+      return true;
+    });
+    std::fprintf(out,
+                 "%-11s %-7s %7d %6d %9zu %10.2e %10.2e %10.2e %10.2e %10.2f %10.2f\n",
+                 first.study, first.solver, first.setting, asked, force.size(),
+                 quantile(force, 0.5), quantile(force, 0.95), quantile(twist, 0.5),
+                 quantile(twist, 0.95), quantile(time, 0.5), quantile(time, 0.95));
+  }
+}
+
+bool read_number(const char* text, long long& value) {
+  char* end = nullptr;
+  value = std::strtoll(text, &end, 10);
+  return end != text && *end == '\0' && value >= 0;
+}
+
+bool read_options(int count, char** arguments, Options& options) {
+  for (int i = 1; i < count; ++i) {
+    const std::string option = arguments[i];
+    if (option == "--quick") {
+      options.instances = 10;
+      options.ipopt_instances = 2;
+      options.generators = {4, 8};
+      options.batches = 1;
+      continue;
+    }
+    if (i + 1 == count) return false;
+    const char* value = arguments[++i];
+    long long number = 0;
+    if (option == "-o") {
+      options.file = value;
+    } else if (!read_number(value, number)) {
+      return false;
+    } else if (option == "--instances") {
+      options.instances = static_cast<int>(number);
+    } else if (option == "--ipopt-instances") {
+      options.ipopt_instances = static_cast<int>(number);
+    } else if (option == "--seed") {
+      options.seed = static_cast<std::uint64_t>(number);
+    } else {
+      return false;
+    }
+  }
+  return true;
+}
+
+int run(int count, char** arguments) {
+  Options options;
+  if (!read_options(count, arguments, options)) {
+    std::fputs(
+        "usage: bench_instant [--quick] [--instances N] [--ipopt-instances N] "
+        "[--seed S] [-o FILE]\n",
+        stderr);
+    return 2;
+  }
+  std::FILE* out = options.file ? std::fopen(options.file, "w") : stdout;
+  if (!out) {
+    std::fprintf(stderr, "error: cannot write %s\n", options.file);
+    return 2;
+  }
+  std::vector<Run> runs;
+  study_pads(options, runs);
+  study_generators(options, runs);
+  write_csv(options, runs, out);
+  const bool written = std::ferror(out) == 0 && (out == stdout || std::fclose(out) == 0);
+  write_summary(runs, stderr);
+  return written ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace prehensile::benchmarks
+
+int main(int count, char** arguments) {
+  return prehensile::benchmarks::run(count, arguments);
+}

@@ -40,7 +40,11 @@ struct Certificate {
 std::string_view name(Certificate::Check check);
 
 /// Checks an answer. An answer without a motion is accepted only if its evidence is
-/// valid; kNotRun, kOutOfIterations and kBadInput are never accepted.
+/// valid; kNotRun, kOutOfIterations, kBadInput and (pads and one flat pusher cannot wedge
+/// an object) kJammed are never accepted. The evidence of kDynamic is a twist by which
+/// gravity gains more power than the pads take, and against which either no force in the
+/// pusher's friction cones works (then nothing can be in balance) or no normal force does
+/// (then the object can fall away from the pusher, whose friction alone might hold it).
 Certificate certify(const PlanarGrasp& grasp, const PlanarDrive& drive,
                     const PlanarInstant& answer) noexcept;
 
@@ -51,7 +55,9 @@ double force_upper_bound(const PlanarGrasp& grasp, const PlanarWrench& p,
                          const PlanarTwist& u) noexcept;
 
 /// Whether the fingers alone hold gravity: least slack of D(u) - w_g.u over unit twists
-/// u, in units of F0; positive means held. `worst` receives the minimising twist.
+/// u, in units of F0 and pad lever; positive means held. The sign is sure (a convex
+/// question); a positive slack is the least of many starts, good to about 1e-3. `worst`
+/// receives the minimising twist.
 double gravity_slack(const PlanarGrasp& grasp, PlanarTwist* worst = nullptr) noexcept;
 
 }  // namespace prehensile

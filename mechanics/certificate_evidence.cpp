@@ -135,7 +135,7 @@ class Balance {
   }
 
   double violation() const {
-    return std::max(wrench(false).norm(), std::abs(normal_excess(false)));
+    return worse(wrench(false).norm(), std::abs(normal_excess(false)));
   }
 
   Vec3 rest_;
@@ -192,7 +192,7 @@ double ambiguous_violation(const PlanarGrasp& grasp, const PlanarDrive& drive,
     const PlanarTwist& v = answer.evidence;
     const double scale = units.force * units.rate * units.scaled_twist(v).norm();
     const double slack = friction_power(grasp, v) - grasp.w_g.dot(v);
-    worst = std::max(worst, slack / scale);
+    worst = worse(worst, slack / scale);
     shown = shown || scale > 0.0;
   }
   return shown ? worst : kFails;
@@ -204,7 +204,7 @@ double rest_violation(const PlanarDrive& drive, const PlanarInstant& answer,
   const bool separated = answer.status == InstantStatus::kSeparated;
   for (int i = 0; i < drive.count; ++i) {
     const double load = answer.pusher[i].normal_force / units.force;
-    if (separated) worst = std::max(worst, std::abs(load));
+    if (separated) worst = worse(worst, std::abs(load));
   }
   return worst;
 }
@@ -219,8 +219,7 @@ double interval_violation(const PlanarGrasp& grasp, const PlanarDrive& drive,
       motion_violation(grasp, drive, answer.V_HO, units, std::max(0.0, answer.force_low));
   const double high = motion_violation(grasp, drive, answer.V_HO, units,
                                        std::max(0.0, answer.force_high));
-  if (std::isnan(below) || std::isnan(above)) return kNan;
-  return std::max({0.0, below, above, low, high});
+  return worse(worse(worse(below, above), worse(low, high)), 0.0);
 }
 
 }  // namespace
@@ -308,7 +307,7 @@ double motion_violation(const PlanarGrasp& grasp, const PlanarDrive& drive,
     const Vec2 rate = velocity(V_HO - drive.V_HP, p.x(), p.y()) / units.rate;
     const double opening = drive.n_H.dot(rate);
     const double slip = drive.t_H().dot(rate);
-    penetration = std::max(penetration, -opening);
+    penetration = worse(penetration, -opening);
     if (opening > kAtRest) continue;
     const Balance::Set set = std::abs(slip) <= kAtRest ? Balance::Set::kCone
                              : slip > 0.0              ? Balance::Set::kRayMinus
@@ -322,7 +321,7 @@ double motion_violation(const PlanarGrasp& grasp, const PlanarDrive& drive,
                 Balance::Set::kDisc, grasp.bound[j] / units.force);
   }
   if (normal_sum >= 0.0) balance.prescribe_normal_sum(normal_sum / units.force);
-  return std::max(penetration, balance.least_violation());
+  return worse(penetration, balance.least_violation());
 }
 
 double evidence_violation(const PlanarGrasp& grasp, const PlanarDrive& drive,
@@ -336,9 +335,9 @@ double evidence_violation(const PlanarGrasp& grasp, const PlanarDrive& drive,
       return held();
     case InstantStatus::kHolds:
     case InstantStatus::kSeparated:
-      return std::max(held(), rest_violation(drive, answer, units));
+      return worse(held(), rest_violation(drive, answer, units));
     case InstantStatus::kNonuniqueForces:
-      return std::max(held(), interval_violation(grasp, drive, answer, units));
+      return worse(held(), interval_violation(grasp, drive, answer, units));
     case InstantStatus::kAmbiguous:
       return ambiguous_violation(grasp, drive, answer, units);
     case InstantStatus::kDynamic:

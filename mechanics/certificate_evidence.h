@@ -6,6 +6,9 @@
 
 namespace prehensile {
 
+/// The larger of two violations; not-a-number is the worst (std::max would drop it).
+inline double worse(double a, double b) { return std::isnan(a) || a >= b ? a : b; }
+
 /// Units in which errors are judged. The length is the lever of the pads; but not less
 /// than a thousandth of the distance to the pusher, where rounding would show.
 struct CertificateUnits {

@@ -17,7 +17,8 @@
 namespace prehensile {
 namespace {
 
-constexpr int kDescents = 3;
+constexpr int kDescents = 4;
+constexpr int kSpread = 48;
 constexpr int kDescentSteps = 60;
 
 /// D and its derivatives at a twist, in certificate units.
@@ -33,7 +34,13 @@ class SlackSearch {
       : grasp_(grasp), units_(units), w_g_(units.scaled_wrench(grasp.w_g)) {}
 
   Vec3 least(double* slack) {
-    for (int axis = 0; axis < 3; ++axis) try_both(Vec3::Unit(axis));
+    // Even spread over half the sphere (golden angle).
+    for (int k = 0; k < kSpread; ++k) {
+      const double z = (k + 0.5) / kSpread;
+      const double r = std::sqrt(1.0 - z * z);
+      try_both(
+          {r * std::cos(2.399963229728653 * k), r * std::sin(2.399963229728653 * k), z});
+    }
     if (!w_g_.isZero(0.0)) try_both(w_g_.normalized());
     for (int j = 0; j < grasp_.count; ++j) {
       const Vec2 r = lever(j);

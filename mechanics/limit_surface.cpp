@@ -1,5 +1,6 @@
 #include "mechanics/limit_surface.h"
 
+#include "mechanics/certificate_evidence.h"
 #include "mechanics/push_verdict.h"
 
 namespace prehensile {
@@ -9,6 +10,8 @@ namespace {
 /// PushModes is a plane, a ray or a line against the sphere.
 class UnitSphere {
  public:
+  bool is_point() const { return false; }
+
   double dissipation(const PlanarTwist& u) const { return u.norm(); }
 
   PlanarWrench resistance(const PlanarTwist& u, const Pivot&) const {
@@ -108,7 +111,7 @@ double contact_violation(const PusherPoint& point, double mu, const Vec2& rate, 
   const double kinematics = std::max(std::abs(point.normal_rate - rate.x()),
                                      std::abs(point.slip_rate - rate.y())) /
                             v0;
-  return std::max({unilateral, cone, std::abs(power), kinematics});
+  return worse(worse(unilateral, cone), worse(std::abs(power), kinematics));
 }
 
 bool has_motion(InstantStatus status) {
@@ -131,7 +134,7 @@ double limit_surface_residual(const LimitSurface& surface, const PlanarWrench& w
       const Vec2 rate = point_velocity(v, drive.p_HC[i]);
       const double reach = std::max(surface.c, drive.p_HC[i].norm());
       const double speed = v.head<2>().norm() + reach * std::abs(v[2]);
-      violation = std::max(violation, -drive.n_H.dot(rate) / speed);
+      violation = worse(violation, -drive.n_H.dot(rate) / speed);
     }
     return violation;
   }
@@ -145,18 +148,17 @@ double limit_surface_residual(const LimitSurface& surface, const PlanarWrench& w
     const PusherPoint& point = answer.pusher[i];
     const Vec2 relative = point_velocity(answer.V_HO - drive.V_HP, drive.p_HC[i]);
     const Vec2 rate(drive.n_H.dot(relative), drive.t_H().dot(relative));
-    worst = std::max(worst, contact_violation(point, drive.mu, rate, surface.F, v0));
+    worst = worse(worst, contact_violation(point, drive.mu, rate, surface.F, v0));
     const Vec2 f = point.normal_force * drive.n_H + point.tangential_force * drive.t_H();
     push += wrench_of(drive.p_HC[i], f);
   }
-  worst = std::max(worst, surface.load(push - answer.w_push));
-  worst =
-      std::max(worst, std::abs(answer.push_force - push.head<2>().norm()) / surface.F);
+  worst = worse(worst, surface.load(push - answer.w_push));
+  worst = worse(worst, std::abs(answer.push_force - push.head<2>().norm()) / surface.F);
   const Vec3 scaled_twist(answer.V_HO[0], answer.V_HO[1], surface.c * answer.V_HO[2]);
   if (scaled_twist.norm() <= 1e-14 * v0) {
-    return std::max(worst, surface.load(w_g + push) - 1.0);
+    return worse(worst, surface.load(w_g + push) - 1.0);
   }
-  return std::max(worst, surface.load(w_g + push + surface.friction(answer.V_HO)));
+  return worse(worst, surface.load(w_g + push + surface.friction(answer.V_HO)));
 }
 
 }  // namespace prehensile

@@ -169,16 +169,12 @@ class Iteration {
   std::array<Vec2, PlanarGrasp::kCapacity> finger_force_;
 };
 
-}  // namespace
-
-NewtonAnswer solve_proximal_newton(const PadFriction& pads, const ScaledPush& push,
-                                   const Eigen::Matrix3d& M, const PlanarTwist& start,
-                                   double tolerance, int max_steps) noexcept {
-  NewtonAnswer answer;
-  double r = 0.3;
+/// One run from zero forces; `pace` scales the rates at which contacts are probed.
+void run(Iteration& iteration, const PlanarTwist& start, double pace, double tolerance,
+         int max_steps, NewtonAnswer& answer) {
+  double r = 0.3 * pace;
   double e = 0.0;
   double residual = std::numeric_limits<double>::infinity();
-  Iteration iteration(pads, push, M);
   iteration.start_at(start);
   while (answer.steps < max_steps) {
     iteration.set_prox(r, e);
@@ -190,16 +186,40 @@ NewtonAnswer solve_proximal_newton(const PadFriction& pads, const ScaledPush& pu
     if (residual <= tolerance) break;
     if (settled) {
       iteration.move_centres();
-      r = std::max(1e-4, 0.3 * r);
+      r = std::max(1e-4 * pace, 0.3 * r);
       e *= 0.2;
     } else {
-      e = std::max(10.0 * e, 0.1);
-      r = std::min(3.0, 2.0 * r);
+      e = std::max(10.0 * e, 0.1 / pace);
+      r = std::min(3.0 * pace, 2.0 * r);
     }
     ++answer.steps;
   }
   answer.residual = residual;
   answer.converged = residual <= tolerance;
+}
+
+}  // namespace
+
+NewtonAnswer solve_proximal_newton(const PadFriction& pads, const ScaledPush& push,
+                                   const Eigen::Matrix3d& M, const PlanarTwist& start,
+                                   double tolerance, int max_steps) noexcept {
+  NewtonAnswer answer;
+  Iteration iteration(pads, push, M);
+  // An object that falls reaches the rate at which inertia matters, M u = w: other paces.
+  const double fall = 1.0 / std::max(M.topLeftCorner<2, 2>().norm(), 1e-12);
+  const std::array<double, 8> kPaces = {1.0, 30.0,       fall,       1.0, std::sqrt(fall),
+                                        1e3, 0.1 * fall, 10.0 * fall};
+  constexpr std::size_t kAttempts = kPaces.size();
+  for (std::size_t k = 0; k < kAttempts && !answer.converged; ++k) {
+    const int left = max_steps - answer.steps;
+    const int budget =
+        answer.steps + left / static_cast<int>(std::min<std::size_t>(4, kAttempts - k));
+    const bool from_pusher = k == 3 || k == 6;
+    const PlanarTwist from = k == 0        ? start
+                             : from_pusher ? push.V
+                                           : PlanarTwist(PlanarTwist::Zero());
+    run(iteration, from, kPaces[k], tolerance, budget, answer);
+  }
   iteration.write(answer);
   return answer;
 }

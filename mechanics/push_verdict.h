@@ -138,6 +138,27 @@ Verdict judge_receding(const Body& body, const ScaledPush& push, bool probe) {
   return verdict;
 }
 
+/// A pad that is one point lets the object turn about it without resistance: the object
+/// may swing off the pusher at any sufficient rate.
+inline bool swings_off(const ScaledPush& push, PlanarTwist& swing) {
+  for (const double side : {1.0, -1.0}) {
+    double rate = 0.0;
+    bool possible = true;
+    for (int i = 0; i < push.count; ++i) {
+      const double opening = side * push.n.dot(perp(push.p[i]));
+      if (opening > 1e-9) rate = std::max(rate, push.approach(i) / opening);
+    }
+    for (int i = 0; i < push.count; ++i) {
+      const double opening = side * push.n.dot(perp(push.p[i]));
+      possible = possible && 2.0 * rate * opening >= push.approach(i);
+    }
+    if (!possible || rate <= 0.0) continue;
+    swing = {0.0, 0.0, 2.0 * side * rate};
+    return true;
+  }
+  return false;
+}
+
 /// The quasi-static instant. `known` is a motion found before, or null. `probe` looks for
 /// more motions even where the pads hold gravity and there should be only one.
 template <class Body>
@@ -167,6 +188,7 @@ Verdict judge_push(const Body& body, const ScaledPush& push, const Motion* known
     if (count > 1) verdict.other = motions[1].u;
   }
   if (!found) return verdict;
+  if (body.is_point() && swings_off(push, verdict.other)) verdict.has_other = true;
   const bool forces_vary = verdict.motion.force_high - verdict.motion.force_low > kJudged;
   verdict.status = verdict.has_other ? InstantStatus::kAmbiguous
                    : forces_vary     ? InstantStatus::kNonuniqueForces

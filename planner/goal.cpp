@@ -11,10 +11,16 @@ constexpr double kPi = std::numbers::pi;
 /// Offsets of a free angle from that of the start [degrees].
 constexpr std::array<double, 12> kAngles = {0.0,   15.0, -15.0, 30.0,  -30.0,  60.0,
                                             -60.0, 90.0, -90.0, 135.0, -135.0, 180.0};
-/// Offsets of one free position in shares of the object's length; of two free ones.
-constexpr std::array<double, 7> kOffsets = {0.0,   0.125, -0.125, 0.25,
-                                            -0.25, 0.375, -0.375};
-constexpr std::array<double, 5> kCoarseOffsets = {0.0, 0.15, -0.15, 0.3, -0.3};
+/// Free positions step in shares of the object's length.
+constexpr double kStep = 0.04;         // one free position at a fixed angle
+constexpr int kSteps = 25;             // to both sides together
+constexpr double kCoarseStep = 0.125;  // one free position at a free angle
+constexpr int kCoarseSteps = 7;
+constexpr double kPlaneStep = 0.15;  // two free positions
+constexpr int kPlaneSteps = 5;
+
+/// 0, 1, -1, 2, -2, ... times the step.
+double offset(int i, double step) { return step * (i % 2 == 0 ? -i / 2 : (i + 1) / 2); }
 
 double flat_distance(const Model& model, const FlatState& from, const GoalPlace& to) {
   const double dtheta = to.theta[0] - from.theta;
@@ -31,15 +37,19 @@ class PlaceCollector {
     const Vec2 kept = -rotated(theta, start_.p_OF);
     const bool both_free = !goal_.x && !goal_.y;
     if (both_free) {
-      for (const double dx : kCoarseOffsets) {
-        for (const double dy : kCoarseOffsets) add(theta, kept + model_.L * Vec2{dx, dy});
+      for (int i = 0; i < kPlaneSteps * kPlaneSteps; ++i) {
+        const Vec2 d{offset(i / kPlaneSteps, kPlaneStep),
+                     offset(i % kPlaneSteps, kPlaneStep)};
+        add(theta, kept + model_.L * d);
       }
     } else if (goal_.x && goal_.y) {
       add(theta, {*goal_.x, *goal_.y});
     } else {
-      for (const double offset : kOffsets) {
-        add(theta, {goal_.x.value_or(kept.x() + model_.L * offset),
-                    goal_.y.value_or(kept.y() + model_.L * offset)});
+      const int steps = goal_.theta ? kSteps : kCoarseSteps;
+      const double step = goal_.theta ? kStep : kCoarseStep;
+      for (int i = 0; i < steps; ++i) {
+        const double d = model_.L * offset(i, step);
+        add(theta, {goal_.x.value_or(kept.x() + d), goal_.y.value_or(kept.y() + d)});
       }
     }
   }

@@ -1,0 +1,80 @@
+#include "planner/goal.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/planner/planner_cases.h"
+#include "tests/support/random.h"
+
+namespace prehensile {
+namespace {
+
+using testing::goal_at;
+using testing::Random;
+
+constexpr double kPi = std::numbers::pi;
+
+TEST(Goal, CountsAnglesByWholeTurns) {
+  Goal goal = goal_at({-0.02, 0.01}, 3.1);
+  Grasp grasp{pose_from_finger({-0.02, 0.01}, 3.1 - 2.0 * kPi), 0.0};
+  EXPECT_TRUE(reaches(goal, grasp));
+  grasp.X_HO.theta += 6.0 * kPi + 0.5 * goal.angle_tolerance;
+  EXPECT_TRUE(reaches(goal, grasp));
+  grasp.X_HO.theta += goal.angle_tolerance;
+  EXPECT_FALSE(reaches(goal, grasp));
+}
+
+TEST(Goal, FreeCoordinatesDoNotCount) {
+  Goal goal;
+  goal.y = 0.01;
+  EXPECT_TRUE(reaches(goal, {{5.0, 0.0105, 2.0}, 1.0}));
+  EXPECT_FALSE(reaches(goal, {{5.0, 0.0125, 2.0}, 1.0}));
+  EXPECT_NEAR(goal_excess(goal, {{0.0, 0.0125, 0.0}, 0.0}), 1.5, 1e-12);
+}
+
+TEST(Goal, WeighsAngleAgainstDistance) {
+  Goal goal = goal_at({0.0, 0.0}, 0.0);
+  goal.test = GoalTest::kWeightedSum;
+  EXPECT_TRUE(reaches(goal, {{3e-4, 4e-4, 0.049}, 0.0}));
+  EXPECT_FALSE(reaches(goal, {{3e-4, 4e-4, 0.051}, 0.0}));
+  EXPECT_NEAR(goal_excess(goal, {{3e-4, 4e-4, -0.25}, 0.0}), 2e-3, 1e-12);
+}
+
+TEST(Goal, PlacesMeetTheGoalOnTheObjectNearestFirst) {
+  const Model model = prepare(published_tee(3));
+  Random random(1);
+  for (int i = 0; i < 500; ++i) {
+    Goal goal = goal_at(random.in_box(0.05, 0.05), random.in(-kPi, kPi));
+    if (random.chance(0.3)) goal.x.reset();
+    if (random.chance(0.3)) goal.y.reset();
+    if (random.chance(0.3)) goal.theta.reset();
+    if (!goal.x && !goal.y && !goal.theta) continue;
+    const FlatState start{random.in_box(0.05, 0.014), random.in(-5.0, 5.0)};
+    const GoalPlaces places = goal_places(model, goal, start);
+    double last = 0.0;
+    for (int k = 0; k < places.count; ++k) {
+      const GoalPlace& place = places.places[k];
+      EXPECT_TRUE(contains(model.outline, place.p_OF));
+      for (int j = 0; j < place.count; ++j) {
+        EXPECT_TRUE(reaches(goal, grasp_of({place.p_OF, place.theta[j]}, 0.0)));
+      }
+      const double distance = std::hypot((place.p_OF - start.p_OF).norm(),
+                                         model.c * (place.theta[0] - start.theta));
+      EXPECT_GE(distance, last);
+      last = distance;
+    }
+  }
+}
+
+TEST(Goal, RollNeededIsTheShortWayRound) {
+  Goal goal;
+  goal.psi = 3.0;
+  EXPECT_NEAR(roll_needed(goal, -3.0), 6.0 - 2.0 * kPi, 1e-12);
+  EXPECT_EQ(roll_needed(goal, 3.0 + 0.5 * goal.angle_tolerance), 0.0);
+  goal.psi.reset();
+  EXPECT_EQ(roll_needed(goal, 1.0), 0.0);
+}
+
+}  // namespace
+}  // namespace prehensile

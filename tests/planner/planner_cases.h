@@ -1,0 +1,46 @@
+/// Scenes and searches that several planner tests share.
+#pragma once
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "planner/planner.h"
+#include "planner/steering.h"
+#include "problems/published_regrasps.h"
+#include "problems/random_regrasps.h"
+
+namespace prehensile::testing {
+
+inline constexpr std::int64_t kNoBudget = std::numeric_limits<std::int64_t>::max();
+
+/// A published square, whose goal a test may replace.
+inline Scene walled_square() {
+  Scene scene = published_square(0);
+  scene.start.X_HO = pose_from_finger({0.01, 0.002}, 0.1);
+  return scene;
+}
+
+/// A goal at this place of the finger axis in the object and this angle of the object.
+inline Goal goal_at(const Vec2& p_OF, double theta) {
+  const PlanarPose X_HO = pose_from_finger(p_OF, theta);
+  Goal goal;
+  goal.x = X_HO.x;
+  goal.y = X_HO.y;
+  goal.theta = X_HO.theta;
+  return goal;
+}
+
+/// Prints median, 99th percentile and worst of times in seconds.
+inline void print_times(const std::string& what, std::vector<double> seconds) {
+  std::sort(seconds.begin(), seconds.end());
+  const std::size_t n = seconds.size();
+  std::printf("%s: %zu runs, median %.1f us, p99 %.1f us, worst %.1f us\n", what.c_str(),
+              n, 1e6 * seconds[n / 2], 1e6 * seconds[std::min(n - 1, n * 99 / 100)],
+              1e6 * seconds[n - 1]);
+}
+
+}  // namespace prehensile::testing

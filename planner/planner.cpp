@@ -132,7 +132,9 @@ Plan plan_regrasp(const Model& model, const PlanOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   Plan plan = decide(model, options);
   if (plan.usable()) account(model, plan);
-  if (model.scene.goal && plan.status != PlanStatus::kInfeasible) {
+  const bool bounded = plan.usable() || plan.status == PlanStatus::kBudgetSpent ||
+                       plan.status == PlanStatus::kStopped;
+  if (bounded) {
     plan.lower_bound = lower_bound(model, model.scene.start, *model.scene.goal);
   }
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;

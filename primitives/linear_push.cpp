@@ -30,6 +30,13 @@ constexpr double kLocationShare = 0.1;
 /// rotation passes a pad point, and estimates of the error there are rough.
 constexpr double kCaution = 2.0;
 
+/// Longest step over the wanted spacing of checks: seven instants are solved in a step,
+/// at most 0.3 of its length apart.
+constexpr double kStepPerCheck = 3.0;
+
+/// Margin below which a stage counts as beyond the contact mode; stages are not accurate.
+constexpr double kStageMargin = -1e-3;
+
 /// Bound on the exponent of the growth of errors over one step.
 constexpr double kMostGrowth = 10.0;
 
@@ -57,7 +64,7 @@ class PushRun {
         instant_(model, push, start, options.tolerance),
         limits_(model, start, guard, reach_),
         record_(options.certificate_tolerance, trace),
-        control_(options.tolerance, 2.0 * options.max_step,
+        control_(options.tolerance, std::min(1.0, kStepPerCheck * options.max_step),
                  std::clamp(kLocationShare * options.tolerance / instant_.speed(), 1e-12,
                             1e-3)) {}
 
@@ -117,6 +124,7 @@ class PushRun {
   DormandPrinceStep step_;
   Vec2 defect_ = Vec2::Zero();  ///< of the step's middle
   double step_error_ = 0.0;     ///< [m]
+  double least_margin_ = 0.0;   ///< of the contact mode over its stages
   Obstacle obstacle_;
   bool leaping_ = false;
   bool leaps_allowed_ = true;
@@ -161,6 +169,10 @@ void PushRun::advance() {
   }
   const double location = control_.location();
   const double before = crosses ? crossing.at * step_.h : kNever;
+  if (!crossing.limit && before == 0.0 && step_.h > 4.0 * location) {
+    // Right after an event the new mode may last for less than this step.
+    return control_.land(0.25 * step_.h);
+  }
   if (before <= location) return pass(crossing);
   if (crosses && crossing.limit) {
     control_.land(before - 0.5 * location);  // ends on the valid side
@@ -195,8 +207,10 @@ bool PushRun::attempt() {
     obstacle_ = instant_.solve(seat_, s, q);
     if (obstacle_) return false;
     out = instant_.rate();
+    least_margin_ = std::min(least_margin_, mode_margin());
     return true;
   };
+  least_margin_ = kNever;
   double failed_at = kNever;
   if (rides()) {
     step_.y_end = q_;
@@ -217,7 +231,7 @@ bool PushRun::attempt() {
 }
 
 /// Looks into the middle of the step, where the stages may have missed a kink or jump of
-/// the rate: its defect joins the error, and a contact mode that is left there and holds
+/// the rate: its defect joins the error. A contact mode that is left on the way and holds
 /// again at the end calls for a shorter step.
 bool PushRun::middle_agrees() {
   instant_.set_aside();
@@ -229,10 +243,10 @@ bool PushRun::middle_agrees() {
     return false;
   }
   defect_ = step_.h * (instant_.rate() - step_.middle_rate());
-  const bool left = mode_margin() < -instant_.noise();
+  const bool leaves = mode_margin() < -instant_.noise() || least_margin_ < kStageMargin;
   instant_.bring_back();
-  if (!left || mode_margin() < -instant_.noise() || step_.h <= control_.location())
-    return true;
+  const bool returns = mode_margin() >= -instant_.noise();
+  if (!(leaves && returns) || step_.h <= control_.location()) return true;
   control_.land(0.5 * step_.h);
   return false;
 }

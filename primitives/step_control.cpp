@@ -30,6 +30,8 @@ double StepControl::next(double s, double cap) {
 bool StepControl::accepts(double h, double error) {
   const double allowed = tolerance_ * std::max(h, kLeastShare);
   const bool accepted = error <= allowed || h <= location_;
+  // Stages of a step that was too long may have met a block where there is none.
+  if (!accepted) blocked_ = kNever;
   // A step that was cut for another reason says nothing about longer ones.
   if (!accepted || h >= 0.999 * natural_) {
     const double factor = 0.9 * std::pow(allowed / std::max(error, 1e-300), 0.25);

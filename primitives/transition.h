@@ -3,8 +3,9 @@
 ///
 /// Each instant is solved by the exact planar mechanics (roll: the cross-section) and
 /// certified. While the pusher sticks, the object follows the pusher's exact rigid
-/// motion; while it slips, the twist is integrated with adaptive steps (Dormand-Prince
-/// 5(4)) and the stick-slip events are located.
+/// motion; while it slips or tips, the twist is integrated with adaptive steps
+/// (Dormand-Prince 5(4)) and the changes of contact mode are located. Where the pusher
+/// recedes somewhere, motions need not be unique: all contact modes are tried there.
 #pragma once
 
 #include <array>
@@ -52,8 +53,9 @@ struct Event {
 
 struct TransitionOptions {
   double tolerance = 1e-6;  ///< [m] accepted error of the end pose (angles weigh c)
-  double max_step = 0.05;   ///< share of the push; also the spacing of checks on stick
-  int max_steps = 2000;
+  double max_step = 0.05;   ///< share of the push between instants that are looked at;
+                            ///< lower it to see contact modes that last for less
+  int max_steps = 2000;     ///< attempted steps; raise for stiff pushes at fine tolerance
   double certificate_tolerance = 1e-6;
 };
 
@@ -79,7 +81,7 @@ struct Transition {
   std::string_view reason;       ///< static text for people; empty if completed
   Grasp end;                     ///< pose where the push ended
   double done = 0.0;             ///< share of the push, 0..1
-  double error_estimate = kNan;  ///< [m] of the end pose
+  double error_estimate = kNan;  ///< [m] of the end pose; seldom too small, no bound
   double slipped = 0.0;          ///< [m] path of the contact along the pusher
   double max_push_force = kNan;  ///< [N]
   double min_push_force = kNan;  ///< [N]

@@ -1,32 +1,35 @@
 #include "primitives/transition.h"
 
-#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
-#include "tests/primitives/push_cases.h"
-#include "tests/support/no_heap.h"
+#include "tests/primitives/push_checks.h"
 
 namespace prehensile {
 namespace {
 
-using testing::PushCase;
-using testing::random_case;
-using testing::square_scene;
+using testing::has_event;
 
 constexpr double kGravity = 9.81;
 
-bool has_event(const Transition& transition, EventKind kind) {
-  for (int i = 0; i < transition.event_count; ++i) {
-    if (transition.events[i].kind == kind) return true;
-  }
-  return false;
-}
-
-/// Distance of two poses [m]; angles weigh c.
-double distance(const PlanarPose& one, const PlanarPose& other, double c) {
-  return Vec3(one.x - other.x, one.y - other.y, c * (one.theta - other.theta)).norm();
+/// A square of 100 mm pushed at its face -x: contact 0 by a wall, contact 1 by a point;
+/// contact 2 is a floor at -y.
+Scene square_scene() {
+  Scene scene;
+  scene.object.shape = BoxShape{{0.1, 0.1, 0.03}};
+  scene.object.mass = 0.5;
+  scene.gripper.pad = DiscPad{0.009};
+  scene.gripper.friction = {0.5, 0.5};
+  scene.gripper.grip_force = 40.0;
+  scene.overhang = Overhang::kIgnore;
+  scene.pushers.resize(3);
+  scene.pushers[0] = {.name = "wall", .feature = LineFeature{}, .friction = 0.5};
+  scene.pushers[1] = {.name = "pin", .feature = PointFeature{}, .friction = 0.5};
+  scene.pushers[2] = {.name = "floor", .feature = LineFeature{}, .friction = 0.5};
+  scene.pushers[2].normal_angle = 0.5 * std::numbers::pi;
+  return scene;
 }
 
 TEST(Transition, NamesAreTotal) {
@@ -198,184 +201,6 @@ TEST(Transition, SlipsDownAWallInTheKnownDirection) {
   EXPECT_NEAR(t.max_push_force, friction * std::cos(below) * std::hypot(1.0, mu), 1e-6);
 }
 
-TEST(Transition, StickingPushIsTheExactRigidMotion) {
-  int sticking = 0;
-  for (int seed = 0; seed < 400; ++seed) {
-    const PushCase c = random_case(seed);
-    const Model model = prepare(c.scene);
-    const Transition t = apply(model, c.start, c.push);
-    if (!t.completed() || model.contacts[0].is_point || t.event_count > 0 ||
-        t.slipped > 0.0) {
-      continue;
-    }
-    ++sticking;
-    EXPECT_LT(distance(t.end.X_HO, pusher_pose(c.push, c.start.X_HO, 1.0), 0.1), 1e-12);
-    EXPECT_EQ(t.error_estimate, 0.0);
-  }
-  EXPECT_GT(sticking, 40);
-}
-
-// A leap over a ride with a constant wrench must not hide what a traced push, which looks
-// everywhere, would find.
-TEST(Transition, TracedAndUntracedPushesAgree) {
-  for (int seed = 0; seed < 400; ++seed) {
-    const PushCase c = random_case(seed);
-    const Model model = prepare(c.scene);
-    std::vector<Sample> trace;
-    const Transition traced = apply(model, c.start, c.push, {}, &trace);
-    const Transition untraced = apply(model, c.start, c.push);
-    EXPECT_EQ(traced.status, untraced.status) << seed;
-    EXPECT_EQ(traced.event_count, untraced.event_count) << seed;
-    EXPECT_LT(distance(traced.end.X_HO, untraced.end.X_HO, model.c), 2e-6) << seed;
-    if (traced.status != TransitionStatus::kRefused && !trace.empty()) {
-      EXPECT_EQ(trace.back().grasp, traced.end) << seed;
-    }
-  }
-}
-
-PushCase mirrored(PushCase c) {
-  const auto flip = [](Vec2& v) { v.y() = -v.y(); };
-  flip(c.scene.g_W);
-  c.scene.pushers[0].normal_angle *= -1.0;
-  c.push.place *= -1.0;
-  flip(c.push.e);
-  c.push.turn *= -1.0;
-  c.start.X_HO.y *= -1.0;
-  c.start.X_HO.theta *= -1.0;
-  c.scene.start = c.start;
-  return c;
-}
-
-TEST(Transition, MirrorImagesMoveAsMirrorImages) {
-  for (int seed = 0; seed < 300; ++seed) {
-    const PushCase c = random_case(seed);
-    const PushCase m = mirrored(c);
-    const TransitionOptions options{.tolerance = 1e-7};
-    const Transition one = apply(prepare(c.scene), c.start, c.push, options);
-    const Transition other = apply(prepare(m.scene), m.start, m.push, options);
-    ASSERT_EQ(one.status, other.status) << seed;
-    EXPECT_NEAR(one.end.X_HO.x, other.end.X_HO.x, 2e-7) << seed;
-    EXPECT_NEAR(one.end.X_HO.y, -other.end.X_HO.y, 2e-7) << seed;
-    EXPECT_NEAR(one.end.X_HO.theta, -other.end.X_HO.theta, 2e-5) << seed;
-  }
-}
-
-// Quasi-static and rate-independent: only ratios of forces matter.
-TEST(Transition, ForcesScaleWithGripAndGravity) {
-  for (int seed = 0; seed < 200; ++seed) {
-    const PushCase c = random_case(seed);
-    PushCase scaled = c;
-    scaled.scene.gripper.grip_force *= 50.0;
-    scaled.scene.g_W *= 50.0;
-    const TransitionOptions options{.tolerance = 1e-7};
-    const Transition one = apply(prepare(c.scene), c.start, c.push, options);
-    const Transition other = apply(prepare(scaled.scene), c.start, c.push, options);
-    ASSERT_EQ(one.status, other.status) << seed;
-    EXPECT_LT(distance(one.end.X_HO, other.end.X_HO, 0.01), 2e-7) << seed;
-    if (one.completed()) {
-      EXPECT_NEAR(other.max_push_force, 50.0 * one.max_push_force,
-                  1e-3 * other.max_push_force)
-          << seed;
-    }
-  }
-}
-
-TEST(Transition, PushInTwoPartsEndsWhereTheWholePushEnds) {
-  int compared = 0;
-  for (int seed = 0; seed < 300; ++seed) {
-    const PushCase c = random_case(seed);
-    const Model model = prepare(c.scene);
-    const TransitionOptions options{.tolerance = 1e-8};
-    const Transition whole = apply(model, c.start, c.push, options);
-    // Only a push that ends flush may be cut: the second part starts flush.
-    if (!whole.completed() || has_event(whole, EventKind::kCorner) ||
-        model.contacts[0].is_point || std::isfinite(model.contacts[0].half_length)) {
-      continue;
-    }
-    LinearPush first = c.push;
-    first.travel *= 0.4;
-    first.turn *= 0.4;
-    const Transition one = apply(model, c.start, first, options);
-    LinearPush second = c.push;
-    second.travel *= 0.6;
-    second.turn *= 0.6;
-    const Transition two = apply(model, one.end, second, options);
-    ASSERT_TRUE(one.completed() && two.completed()) << seed;
-    EXPECT_LT(distance(two.end.X_HO, whole.end.X_HO, model.c), 1e-7) << seed;
-    ++compared;
-  }
-  EXPECT_GT(compared, 30);
-}
-
-TEST(Transition, TighterToleranceConverges) {
-  double last = 1e-3;
-  for (const double tolerance : {1e-5, 1e-7, 1e-9}) {
-    double worst = 0.0;
-    for (int seed = 0; seed < 60; ++seed) {
-      PushCase c = random_case(seed);
-      c.scene.overhang = Overhang::kIgnore;
-      const Model model = prepare(c.scene);
-      const Transition reference =
-          apply(model, c.start, c.push, {.tolerance = 1e-11, .max_steps = 20000});
-      const Transition t = apply(model, c.start, c.push, {.tolerance = tolerance});
-      if (!reference.completed()) continue;
-      ASSERT_TRUE(t.completed()) << seed << " " << t.reason;
-      worst = std::max(worst, distance(t.end.X_HO, reference.end.X_HO, model.c));
-    }
-    EXPECT_LT(worst, 2.0 * tolerance);
-    EXPECT_LT(worst, 0.2 * last);
-    last = worst;
-  }
-}
-
-// The median, because an event where its margin only grazes zero moves more than the
-// tolerance says.
-TEST(Transition, EventLocationsConverge) {
-  double last = 1e-2;
-  for (const double tolerance : {1e-5, 1e-7, 1e-9}) {
-    std::vector<double> shifts;
-    for (int seed = 0; seed < 120; ++seed) {
-      PushCase c = random_case(seed);
-      c.scene.overhang = Overhang::kIgnore;
-      const Model model = prepare(c.scene);
-      const Transition reference =
-          apply(model, c.start, c.push, {.tolerance = 1e-11, .max_steps = 20000});
-      const Transition t = apply(model, c.start, c.push, {.tolerance = tolerance});
-      if (t.event_count != reference.event_count) continue;
-      for (int i = 0; i < t.event_count; ++i) {
-        EXPECT_EQ(t.events[i].kind, reference.events[i].kind) << seed;
-        if (reference.events[i].s == 0.0) continue;
-        shifts.push_back(std::abs(t.events[i].s - reference.events[i].s));
-      }
-    }
-    ASSERT_GT(shifts.size(), 15u);
-    std::sort(shifts.begin(), shifts.end());
-    EXPECT_LT(shifts[shifts.size() / 2], 0.05 * last);
-    last = shifts[shifts.size() / 2];
-  }
-}
-
-// An estimate, not a bound: where the centre of rotation passes close to a pad point, or
-// an event only grazes, it may be a few times too small.
-TEST(Transition, ErrorEstimateCoversTheError) {
-  int compared = 0;
-  int above = 0;
-  for (int seed = 1000; seed < 1400; ++seed) {
-    const PushCase c = random_case(seed);
-    const Model model = prepare(c.scene);
-    const Transition reference =
-        apply(model, c.start, c.push, {.tolerance = 1e-11, .max_steps = 20000});
-    const Transition t = apply(model, c.start, c.push);
-    ASSERT_EQ(t.status, reference.status) << seed;
-    const double error = distance(t.end.X_HO, reference.end.X_HO, model.c);
-    EXPECT_LT(error, 6.0 * t.error_estimate + 1e-11) << seed << " " << t.reason;
-    EXPECT_LT(error, 2e-6) << seed;
-    above += error > t.error_estimate + 1e-11 ? 1 : 0;
-    ++compared;
-  }
-  EXPECT_LE(above, compared / 100);
-}
-
 // The pusher slips along the face until the face ends.
 TEST(Transition, StopsWhereThePointRunsOffTheFace) {
   Scene scene = square_scene();
@@ -473,67 +298,6 @@ TEST(Transition, WallTipsTheObjectAboutItsEdge) {
     }
     EXPECT_NEAR(least, 0.0, 1e-12);
   }
-}
-
-// Point pushing is unstable when the pusher trails the centre of friction: no motion may
-// be made up there, and forces stay within the friction cone.
-TEST(Transition, SamplesObeyTheFrictionCone) {
-  for (int seed = 0; seed < 200; ++seed) {
-    const PushCase c = random_case(seed);
-    const Model model = prepare(c.scene);
-    std::vector<Sample> trace;
-    const Transition t = apply(model, c.start, c.push, {}, &trace);
-    const double mu = c.scene.pushers[0].friction;
-    double last_s = -1.0;
-    for (const Sample& sample : trace) {
-      EXPECT_GE(sample.normal_force, -1e-7 * model.F);
-      EXPECT_LE(std::abs(sample.tangential_force),
-                mu * sample.normal_force + 1e-6 * model.F);
-      EXPECT_LE(sample.tangential_force * sample.slip_rate, 1e-9);
-      EXPECT_GE(sample.s, last_s);
-      EXPECT_LE(sample.push_force, t.max_push_force);
-      EXPECT_GE(sample.push_force, t.min_push_force);
-      EXPECT_LE(sample.certificate, t.worst_certificate);
-      last_s = sample.s;
-    }
-  }
-}
-
-TEST(Transition, UsesNoHeapWithoutATrace) {
-  for (int seed = 0; seed < 60; ++seed) {
-    const PushCase c = random_case(seed);
-    const Model model = prepare(c.scene);
-    const Push push = c.push;
-    const testing::NoHeapScope scope;
-    const Transition t = apply(model, c.start, push);
-    EXPECT_LE(scope.allocations(), 0) << name(t.status);
-  }
-}
-
-TEST(Transition, RandomPushesAreCertifiedOrStopForAPhysicalReason) {
-  std::array<int, 11> counts{};
-  for (int seed = 0; seed < 2000; ++seed) {
-    const PushCase c = random_case(seed);
-    const Transition t = apply(prepare(c.scene), c.start, c.push);
-    ++counts[static_cast<int>(t.status)];
-    EXPECT_NE(t.status, TransitionStatus::kNotRun) << seed;
-    EXPECT_NE(t.status, TransitionStatus::kUncertified) << seed << " " << t.reason;
-    EXPECT_NE(t.status, TransitionStatus::kIterationLimit) << seed << " " << t.reason;
-    EXPECT_NE(t.status, TransitionStatus::kRefused) << seed << " " << t.reason;
-    EXPECT_EQ(t.completed(), t.reason.empty());
-    if (t.completed()) {
-      EXPECT_EQ(t.done, 1.0);
-    }
-    if (t.done > 0.0) {
-      EXPECT_LE(t.worst_certificate, 1e-6) << seed;
-    }
-  }
-  for (int i = 0; i < 11; ++i) {
-    if (counts[i] == 0) continue;
-    const auto status = static_cast<TransitionStatus>(i);
-    std::printf("%6d %s\n", counts[i], name(status).data());
-  }
-  EXPECT_GT(counts[static_cast<int>(TransitionStatus::kCompleted)], 1500);
 }
 
 }  // namespace

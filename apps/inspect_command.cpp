@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <memory>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <numbers>
 
 #include <CLI/CLI.hpp>

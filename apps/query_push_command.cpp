@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <numbers>
 #include <vector>
 
@@ -31,6 +32,11 @@ struct Options {
 Push make_push(const Options& options, const Model& model, int contact) {
   const double place = 1e-3 * options.push.place_mm;
   const double travel = 1e-3 * options.travel_mm;
+  if (travel < 0.0 && options.kind != "roll") {
+    throw BadInput(
+        text("--travel-mm %g: expected at least 0 (turn the direction instead)",
+             options.travel_mm));
+  }
   const double turn = kRadPerDeg * options.turn_deg;
   const Vec2 e = chosen_direction(model, contact, options.push);
   if (options.kind == "slide") {

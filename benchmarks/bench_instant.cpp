@@ -8,6 +8,7 @@
 /// Every run gives a line: refusals and failures too, with no error but with a status.
 /// Usage: bench_instant [--quick] [--instances N] [--ipopt-instances N] [--seed S]
 ///                      [-o FILE]
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -98,7 +99,8 @@ template <typename Solve>
 Run measured(const Reference& reference, int batches, const Solve& solve,
              PlanarInstant& answer) {
   Run run{};
-  volatile double used = 0.0;  // keeps the calls from being optimised away
+  // Keeps the calls from being optimised away.
+  [[maybe_unused]] volatile double used = 0.0;
   run.time_us = time_us([&] { used = solve().residual; }, batches);
   answer = solve();
   compare(reference, answer, run);
@@ -107,7 +109,8 @@ Run measured(const Reference& reference, int batches, const Solve& solve,
 
 Run exact_run(const Options& options, const Reference& reference,
               const RandomInstant& instant) {
-  const auto& [grasp, drive] = instant;
+  const PlanarGrasp& grasp = instant.grasp;
+  const PlanarDrive& drive = instant.drive;
   PlanarInstant answer;
   Run run = measured(
       reference, options.batches, [&] { return solve_planar(grasp, drive); }, answer);
@@ -117,7 +120,8 @@ Run exact_run(const Options& options, const Reference& reference,
 }
 
 Run closed_run(const Options& options, const Reference& reference) {
-  const auto& [grasp, drive] = reference.instant;
+  const PlanarGrasp& grasp = reference.instant.grasp;
+  const PlanarDrive& drive = reference.instant.drive;
   const LimitSurface surface{grasp.capacity(), reference.lever};
   PlanarInstant answer;
   Run run = measured(
@@ -129,7 +133,8 @@ Run closed_run(const Options& options, const Reference& reference) {
 }
 
 Run ipopt_run(const Reference& reference, int generators) {
-  const auto& [grasp, drive] = reference.instant;
+  const PlanarGrasp& grasp = reference.instant.grasp;
+  const PlanarDrive& drive = reference.instant.drive;
   PlanarInstant answer;
   Run run = measured(
       reference, 1,
@@ -198,6 +203,7 @@ void write_summary(const std::vector<Run>& runs, std::FILE* out) {
                "setting", "asked", "answered", "force med", "p95", "twist med", "p95",
                "us med", "p95");
   std::vector<const Run*> left;
+  left.reserve(runs.size());
   for (const Run& run : runs) left.push_back(&run);
   while (!left.empty()) {
     const Run& first = *left.front();
@@ -231,32 +237,41 @@ bool read_number(const char* text, long long& value) {
   return end != text && *end == '\0' && value >= 0;
 }
 
+void make_quick(Options& options) {
+  options.instances = 10;
+  options.ipopt_instances = 2;
+  options.generators = {4, 8};
+  options.batches = 1;
+}
+
+/// False for an option that is not known or has no value.
+bool read_option(const std::string& option, const char* value, Options& options) {
+  if (option == "-o") {
+    options.file = value;
+    return value != nullptr;
+  }
+  long long number = 0;
+  if (!value || !read_number(value, number)) return false;
+  if (option == "--seed") {
+    options.seed = static_cast<std::uint64_t>(number);
+    return true;
+  }
+  int* const count = option == "--instances"         ? &options.instances
+                     : option == "--ipopt-instances" ? &options.ipopt_instances
+                                                     : nullptr;
+  if (count) *count = static_cast<int>(number);
+  return count != nullptr;
+}
+
 bool read_options(int count, char** arguments, Options& options) {
   for (int i = 1; i < count; ++i) {
     const std::string option = arguments[i];
     if (option == "--quick") {
-      options.instances = 10;
-      options.ipopt_instances = 2;
-      options.generators = {4, 8};
-      options.batches = 1;
+      make_quick(options);
       continue;
     }
-    if (i + 1 == count) return false;
-    const char* value = arguments[++i];
-    long long number = 0;
-    if (option == "-o") {
-      options.file = value;
-    } else if (!read_number(value, number)) {
-      return false;
-    } else if (option == "--instances") {
-      options.instances = static_cast<int>(number);
-    } else if (option == "--ipopt-instances") {
-      options.ipopt_instances = static_cast<int>(number);
-    } else if (option == "--seed") {
-      options.seed = static_cast<std::uint64_t>(number);
-    } else {
-      return false;
-    }
+    const char* const value = i + 1 < count ? arguments[++i] : nullptr;
+    if (!read_option(option, value, options)) return false;
   }
   return true;
 }

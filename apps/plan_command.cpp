@@ -90,7 +90,7 @@ Command add_plan(CLI::App& app) {
   command.add_flag("--no-polish", options->no_polish,
                    "keep the plan as the search found it");
   command.footer(
-      "Example:\n  prehensile plan problems/slide_then_pivot.yaml -o plan.json --seed 7");
+      "Example:\n  prehensile plan problems/published/tee_21.yaml -o plan.json --seed 7");
   return [options] { return run(*options); };
 }
 

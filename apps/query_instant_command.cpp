@@ -47,6 +47,9 @@ int ask_roll(const Options& options, const Model& model, int contact) {
     throw BadInput("--roll: " + contact_text(model, contact) + ": " +
                    std::string(section.reason));
   }
+  if (options.speed_mm_s == 0.0) {
+    throw BadInput("--speed-mm-s 0: expected a support that moves");
+  }
   const CrossSectionDrive drive{.mu = model.contacts[contact].mu,
                                 .sheet_rate = 1e-3 * options.speed_mm_s,
                                 .weight = section.weight};
@@ -97,6 +100,13 @@ int run(const Options& options) {
     throw BadInput(
         "--acceleration: expected --solver exact or ipopt: the closed form is "
         "quasi-static");
+  }
+  if (options.speed_mm_s == 0.0 && options.turn_deg_s == 0.0) {
+    throw BadInput(
+        "--speed-mm-s 0: expected a pusher that moves: a speed or --turn-deg-s");
+  }
+  if (options.acceleration > 0.0 && options.speed_mm_s == 0.0) {
+    throw BadInput("--speed-mm-s 0: expected more than 0 with --acceleration");
   }
   const Grasp grasp = chosen_grasp(model, options.push);
   const Vec2 e = chosen_direction(model, contact, options.push);

@@ -9,6 +9,6 @@ cmake --preset release
 cmake --build --preset release --target prehensile
 
 echo
-problem=problems/slide_then_pivot.yaml
+problem=problems/published/tee_21.yaml
 echo "build/release/prehensile plan $problem -o plan.json"
 exec build/release/prehensile plan "$problem" -o plan.json

@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-const std::string kScene = "problems/slide_then_pivot.yaml";
+const std::string kScene = "problems/published/tee_21.yaml";
 
 TEST(Program, PlansWritesAndChecks) {
   const Folder folder;

@@ -122,6 +122,12 @@ std::string join(const std::string& path, std::string_view key) {
 Faults::Faults(std::string label, std::vector<std::string> options)
     : label_(std::move(label)), options_(std::move(options)) {}
 
+Faults Faults::of_option(const std::string& option) {
+  Faults faults("--set " + shown(option));
+  faults.has_lines_ = false;
+  return faults;
+}
+
 void Faults::add(const Place& place, const std::string& field, const std::string& what) {
   fields_.push_back(field);
   if (messages_.size() >= kMostMessages) {
@@ -133,7 +139,7 @@ void Faults::add(const Place& place, const std::string& field, const std::string
     message = "--set " + shown(options_[static_cast<std::size_t>(place.option)]);
   } else {
     message = label_;
-    if (place.line > 0) message += ':' + std::to_string(place.line);
+    if (has_lines_ && place.line > 0) message += ':' + std::to_string(place.line);
   }
   if (!field.empty()) message += ": " + shown(field);
   messages_.push_back(message + ": " + what);

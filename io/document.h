@@ -76,6 +76,9 @@ class Faults {
   /// `label` names the file; `options` are the overrides that places refer to.
   explicit Faults(std::string label, std::vector<std::string> options = {});
 
+  /// For the value of one override, which has no lines.
+  static Faults of_option(const std::string& option);
+
   void add(const Place& place, const std::string& field, const std::string& what);
 
   /// A fault of this field, of a part of it or of what contains it is known.
@@ -91,6 +94,7 @@ class Faults {
  private:
   std::string label_;
   std::vector<std::string> options_;
+  bool has_lines_ = true;
   std::vector<std::string> fields_;
   std::vector<std::string> messages_;
   int unlisted_ = 0;

@@ -25,7 +25,7 @@ std::string expected_number(const Bounds& bounds) {
 
 std::string expected_list(Length length) {
   return "a list of " + std::to_string(length.least) + " to " +
-         std::to_string(length.most);
+         std::to_string(length.most) + " members";
 }
 
 template <typename Texts>

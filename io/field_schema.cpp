@@ -28,9 +28,8 @@ void FieldSchema::add_angle(const std::string& key, const Bounds& bounds, const 
 }
 
 FieldSchema::Json FieldSchema::take() const {
-  Json schema = {{"type", "object"},
-                 {"additionalProperties", false},
-                 {"properties", properties_}};
+  Json schema = {
+      {"type", "object"}, {"additionalProperties", false}, {"properties", properties_}};
   if (!required_.empty()) schema["required"] = required_;
   if (!rules_.empty()) schema["allOf"] = rules_;
   return schema;

@@ -60,10 +60,11 @@ class Handler {
   }
   template <typename Error>
   bool parse_error(std::size_t, const std::string&, const Error& error) {
-    // "[json.exception...] parse error at line 1, column 2: <what>"
+    // "[json.exception...] parse error at line 1, column 2: <what>", or without the place
     std::string what = error.what();
     const std::size_t colon = what.find(": ");
     if (colon != std::string::npos) what.erase(0, colon + 2);
+    if (what.starts_with('[')) what.erase(0, what.find("] ") + 2);
     const std::size_t read = what.find("; last read");
     if (read != std::string::npos) what.resize(read);
     faults_.fail(place(), builder_.path(),
@@ -107,8 +108,9 @@ ordered_json to_tree(const Value& value) {
     case Value::Kind::kNull:
       return nullptr;
     case Value::Kind::kPlain: {
-      double number = 0.0;
-      return to_number(value.text, number) ? ordered_json::parse(value.text)
+      if (ordered_json::accept(value.text)) return ordered_json::parse(value.text);
+      double number = 0.0;  // YAML spells some that JSON does not, like .5
+      return to_number(value.text, number) ? ordered_json(number)
                                            : ordered_json(value.text);
     }
     case Value::Kind::kText:

@@ -86,7 +86,7 @@ void apply_overrides(Value& root, const std::vector<std::string>& overrides,
       continue;
     }
     const std::string path = overrides[i].substr(0, equals);
-    Faults syntax("--set " + shown(overrides[i]));
+    Faults syntax = Faults::of_option(overrides[i]);
     Value value = parse_yaml(overrides[i].substr(equals + 1), syntax);
     syntax.raise();
     set_option(value, place.option);

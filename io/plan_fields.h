@@ -52,6 +52,7 @@ struct WrittenPush {
   std::optional<Vec2> direction;
   double travel = 0.0;
   std::optional<double> turn;
+  std::optional<double> grip_force;
   std::optional<double> guard_angle;
   std::optional<double> guard_distance;
   PlannedPush planned;  // its numbers; the push itself is made from what is above
@@ -96,6 +97,8 @@ void visit_push(Fields& fields, WrittenPush& push) {
                 "Length of the path, >= 0; for a roll with sign, along +z of H.");
   fields.number("turn", push.turn, kRadians,
                 "Of the pusher in the hand over the whole push; not for a roll.");
+  fields.number("grip_force", push.grip_force, {0.0, 1e6, "N"},
+                "Of each finger during a roll. Absent: that of the scene.");
   fields.number("guard_angle", push.guard_angle, {0.0, 10.0, "rad"},
                 "A slide stops when the object has turned by this.");
   fields.number("guard_distance", push.guard_distance, {0.0, 10.0, "m"},

@@ -43,6 +43,7 @@ WrittenPush record_of(const Model& model, const PlannedPush& planned) {
   record.planned = planned;
   if (const auto* roll = std::get_if<Roll>(&planned.push)) {
     record.travel = roll->travel;
+    if (roll->grip_force > 0.0) record.grip_force = roll->grip_force;
     return record;
   }
   const LinearPush linear = as_linear(planned.push);
@@ -110,9 +111,9 @@ class PushMaker {
     if (record.place || record.direction || record.turn) {
       fault("kind", "roll: expected no place, direction or turn");
     }
-    refuse_guard("guard_angle", record.guard_angle);
-    refuse_guard("guard_distance", record.guard_distance);
-    return Roll{contact, record.travel};
+    refuse("guard_angle", record.guard_angle);
+    refuse("guard_distance", record.guard_distance);
+    return Roll{contact, record.travel, record.grip_force.value_or(0.0)};
   }
 
   Push linear(const WrittenPush& record, int contact) {
@@ -123,17 +124,18 @@ class PushMaker {
     if (!record.turn) fault("turn", "missing: expected for every kind but roll");
     if (!complete) return LinearPush{};
     check_motion(record);
+    refuse("grip_force", record.grip_force);
     const double place = *record.place;
     if (record.kind == PushKind::kSlide && record.guard_angle) {
-      refuse_guard("guard_distance", record.guard_distance);
+      refuse("guard_distance", record.guard_distance);
       return Slide{contact, place, *record.direction, record.travel, *record.guard_angle};
     }
     if (record.kind == PushKind::kPivot && record.guard_distance) {
-      refuse_guard("guard_angle", record.guard_angle);
+      refuse("guard_angle", record.guard_angle);
       return Pivot{contact, place, *record.turn, *record.guard_distance};
     }
-    refuse_guard("guard_angle", record.guard_angle);
-    refuse_guard("guard_distance", record.guard_distance);
+    refuse("guard_angle", record.guard_angle);
+    refuse("guard_distance", record.guard_distance);
     return LinearPush{contact, place, *record.direction, record.travel, *record.turn};
   }
 
@@ -151,8 +153,8 @@ class PushMaker {
     }
   }
 
-  void refuse_guard(const std::string& key, const std::optional<double>& guard) {
-    if (guard) fault(key, "given: expected for a guarded slide or pivot only");
+  void refuse(const std::string& key, const std::optional<double>& value) {
+    if (value) fault(key, "given: expected for other kinds of push only");
   }
 
   const Model& model_;

@@ -13,6 +13,8 @@
 namespace prehensile {
 namespace {
 
+using enum PushInstant::Search;
+
 constexpr double kNever = StepControl::kNever;
 
 /// Length below which a limit does not count as crossed [m].
@@ -59,14 +61,14 @@ class PushRun {
         push_(push),
         options_(options),
         psi_(start.psi),
-        traced_(trace != nullptr),
         reach_(std::max(model.c, kLeastReach * model.L)),
         instant_(model, push, start, options.tolerance),
         limits_(model, start, guard, reach_),
         record_(options.certificate_tolerance, trace),
         control_(options.tolerance, std::min(1.0, kStepPerCheck * options.max_step),
                  std::clamp(kLocationShare * options.tolerance / instant_.speed(), 1e-12,
-                            1e-3)) {}
+                            1e-3)),
+        traced_(trace != nullptr) {}
 
   Transition run() {
     begin();
@@ -105,7 +107,6 @@ class PushRun {
   const LinearPush push_;
   const TransitionOptions options_;
   const double psi_;
-  const bool traced_;
   const double reach_;  ///< [m] weight of an angle
 
   PushInstant instant_;
@@ -114,7 +115,6 @@ class PushRun {
   StepControl control_;
 
   Seat seat_;
-  Regime regime_ = Regime::kStick;
   double s_ = 0.0;
   Vec2 q_ = Vec2::Zero();
   Vec2 rate_ = Vec2::Zero();
@@ -126,10 +126,12 @@ class PushRun {
   double step_error_ = 0.0;     ///< [m]
   double least_margin_ = 0.0;   ///< of the contact mode over its stages
   Obstacle obstacle_;
+  Regime regime_ = Regime::kStick;
+  int attempts_ = 0;
+  const bool traced_;
   bool leaping_ = false;
   bool leaps_allowed_ = true;
   bool whole_ = true;  ///< the pad does not overhang
-  int attempts_ = 0;
 };
 
 void PushRun::begin() {
@@ -204,7 +206,8 @@ bool PushRun::can_leap() const {
 /// Computes the step and its end; false if there is no motion or the error is too large.
 bool PushRun::attempt() {
   const auto rate = [this](double s, const Vec2& q, Vec2& out) {
-    obstacle_ = instant_.solve(seat_, s, q);
+    // Uniqueness is asked for where the push may be left to rest, not at every stage.
+    obstacle_ = instant_.solve(seat_, s, q, s < s_ + step_.h ? kOneMotion : kAllMotions);
     if (obstacle_) return false;
     out = instant_.rate();
     least_margin_ = std::min(least_margin_, mode_margin());
@@ -238,8 +241,8 @@ bool PushRun::middle_agrees() {
   const double middle = s_ + 0.5 * step_.h;
   obstacle_ = instant_.solve(seat_, middle, step_.at(0.5));
   if (obstacle_) {
-    instant_.bring_back();
     block(middle);
+    instant_.bring_back();
     return false;
   }
   defect_ = step_.h * (instant_.rate() - step_.middle_rate());
@@ -263,7 +266,7 @@ void PushRun::block(double at) {
   if (leaping_) {
     leaps_allowed_ = false;
   } else if (control_.is_at_block(s_, at)) {
-    stop(obstacle_);
+    stop(instant_.explained(obstacle_));
   }
 }
 
@@ -376,9 +379,9 @@ void PushRun::stop(const Obstacle& obstacle) {
 
 /// Solves the instant at the present state; stops the push if there is no motion.
 bool PushRun::solve_here() {
-  const Obstacle obstacle = instant_.solve(seat_, s_, q_);
+  const Obstacle obstacle = instant_.solve(seat_, s_, q_, kAllMotions);
   if (obstacle) {
-    record_.stop(obstacle, s_);
+    record_.stop(instant_.explained(obstacle), s_);
     return false;
   }
   rate_ = instant_.rate();

@@ -20,8 +20,7 @@ bool recedes_somewhere(const PlanarDrive& drive) {
   return false;
 }
 
-/// An instant is called ambiguous also where the pusher has to carry the object.
-Obstacle obstacle_of(InstantStatus status, const PlanarGrasp& grasp) {
+Obstacle obstacle_of(InstantStatus status) {
   using enum TransitionStatus;
   switch (status) {
     case InstantStatus::kMoves:
@@ -33,10 +32,7 @@ Obstacle obstacle_of(InstantStatus status, const PlanarGrasp& grasp) {
     case InstantStatus::kDynamic:
       return {kFalls, EventKind::kGravityLost, "nothing balances gravity"};
     case InstantStatus::kAmbiguous:
-      if (gravity_slack(grasp) > kHeld) {
-        return {kAmbiguous, {}, "two motions are possible"};
-      }
-      return {kFalls, EventKind::kGravityLost, "the grasp alone does not hold gravity"};
+      return {kAmbiguous, {}, "two motions are possible"};
     case InstantStatus::kJammed:
       return {kJammed, {}, "no motion is possible"};
     case InstantStatus::kNotRun:
@@ -65,7 +61,8 @@ PlanarPose PushInstant::pose(const Seat& seat, double s, const Vec2& q) const {
   return compose(pusher_pose(push_, X_HO_start_, s), geometry_.object(seat, q));
 }
 
-Obstacle PushInstant::solve(const Seat& seat, double s, const Vec2& q) noexcept {
+Obstacle PushInstant::solve(const Seat& seat, double s, const Vec2& q,
+                            Search search) noexcept {
   Answer& now = answers_[now_];
   const PlanarPose X_HP = pusher_pose(push_, X_HO_start_, s);
   const PlanarPose X_PO = geometry_.object(seat, q);
@@ -83,7 +80,8 @@ Obstacle PushInstant::solve(const Seat& seat, double s, const Vec2& q) noexcept 
   now.drive.V_HP = pusher_twist(push_, X_HO_start_, s);
 
   ++count_;
-  options_.probe_multiplicity = recedes_somewhere(now.drive);
+  options_.probe_multiplicity =
+      search == Search::kAllMotions && recedes_somewhere(now.drive);
   now.instant = solve_planar(now.grasp, now.drive, options_, &warm_);
   if (now.instant.status == InstantStatus::kOutOfIterations) {
     // A looser answer is better than none; the certificate has the last word.
@@ -91,13 +89,20 @@ Obstacle PushInstant::solve(const Seat& seat, double s, const Vec2& q) noexcept 
     loose.tolerance = kLooseTolerance;
     now.instant = solve_planar(now.grasp, now.drive, loose, &warm_);
   }
-  const Obstacle obstacle = obstacle_of(now.instant.status, now.grasp);
+  const Obstacle obstacle = obstacle_of(now.instant.status);
   if (obstacle) {
     warm_.valid = false;
   } else {
     read(seat, now);
   }
   return obstacle;
+}
+
+Obstacle PushInstant::explained(const Obstacle& obstacle) const noexcept {
+  const bool ambiguous = obstacle.status == TransitionStatus::kAmbiguous;
+  if (!ambiguous || gravity_slack(answer().grasp) > kHeld) return obstacle;
+  return {TransitionStatus::kFalls, EventKind::kGravityLost,
+          "the grasp alone does not hold gravity"};
 }
 
 void PushInstant::read(const Seat& seat, Answer& answer) const noexcept {

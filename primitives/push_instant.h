@@ -30,7 +30,14 @@ class PushInstant {
               double tolerance);
 
   /// Solves the instant at the share s of the push with the object at q in the seat.
-  Obstacle solve(const Seat& seat, double s, const Vec2& q) noexcept;
+  /// `kAllMotions` tries every contact mode where the answer need not be unique.
+  enum class Search { kOneMotion, kAllMotions };
+  Obstacle solve(const Seat& seat, double s, const Vec2& q,
+                 Search search = Search::kOneMotion) noexcept;
+
+  /// The reason behind an obstacle that the last instant met: an instant is called
+  /// ambiguous also where the pusher has to carry the object.
+  Obstacle explained(const Obstacle& obstacle) const noexcept;
 
   /// Keeps the last answer while others are sought, and brings it back.
   void set_aside() { now_ = 1 - now_; }
@@ -79,8 +86,8 @@ class PushInstant {
   double force_;  ///< [N] unit of forces
 
   std::array<Answer, 2> answers_;
-  int now_ = 0;
   PlanarWarmStart warm_;
+  int now_ = 0;
   int count_ = 0;
 };
 

@@ -34,9 +34,11 @@ bool StepControl::accepts(double h, double error) {
   if (!accepted) blocked_ = kNever;
   // A step that was cut for another reason says nothing about longer ones.
   if (!accepted || h >= 0.999 * natural_) {
-    const double factor = 0.9 * std::pow(allowed / std::max(error, 1e-300), 0.25);
-    natural_ = std::clamp(h * std::clamp(factor, 0.2, 4.0), 0.5 * location_, longest_);
+    const double factor = 0.9 * std::pow(allowed / std::max(error, 1e-300), 0.2);
+    const double most = was_refused_ ? 1.0 : 3.0;
+    natural_ = std::clamp(h * std::clamp(factor, 0.2, most), 0.5 * location_, longest_);
   }
+  was_refused_ = !accepted;
   return accepted;
 }
 

@@ -37,9 +37,10 @@ class StepControl {
   double tolerance_;
   double longest_;
   double location_;
-  double natural_;           ///< length that error control asks for
-  double landing_ = kNever;  ///< wanted once
-  double blocked_ = kNever;  ///< share of the push at which no motion was found
+  double natural_;            ///< length that error control asks for
+  bool was_refused_ = false;  ///< then the next step does not grow
+  double landing_ = kNever;   ///< wanted once
+  double blocked_ = kNever;   ///< share of the push at which no motion was found
 };
 
 }  // namespace prehensile

@@ -27,7 +27,7 @@ double push_time(const Model& model, const RandomPush& c, double tolerance) {
 
 double quantile(std::vector<double>& values, double share) {
   std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * (values.size() - 1))];
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
 // Accuracy, honesty of the estimate and time over tolerances, for pushes that slip or

@@ -75,13 +75,23 @@ bool next_choice(const Chain& chain, std::array<int, Chain::kMaxLegs>& choice) {
   return false;
 }
 
-/// A whole disc feels the same along a straight move, so its ends decide; other pads are
-/// looked at every 2 mm and 0.1 rad.
-int points_along(const SearchModel& search, const Move& move) {
-  if (search.exact_everywhere) return 2;
+/// A whole disc feels the same along a straight move up to its quadrature: with this much
+/// slack its ends decide, unless the centre of rotation passes between its points.
+constexpr double kDiscReserve = 5e-3;
+constexpr double kTurnsOutsideDisc = 0.5;  // kappa; the disc reaches to c / kappa = 3/2 c
+
+bool ends_decide(const SearchModel& search, const Move& move, double slack) {
+  const double turn = search.model->c * std::abs(move.to.theta - move.from.theta);
+  const double travel = (move.to.p_OF - move.from.p_OF).norm();
+  return search.exact_everywhere && slack >= kDiscReserve &&
+         turn <= kTurnsOutsideDisc * travel;
+}
+
+/// Every 2 mm and 0.1 rad, as the exact check of a plan does.
+int points_along(const Move& move) {
   const double steps = std::max((move.to.p_OF - move.from.p_OF).norm() / 2e-3,
                                 std::abs(move.to.theta - move.from.theta) / 0.1);
-  return static_cast<int>(std::clamp(std::ceil(steps) + 1.0, 3.0, 24.0));
+  return static_cast<int>(std::clamp(std::ceil(steps) + 1.0, 3.0, 50.0));
 }
 
 /// Friction bodies of whole flat pads from the disc to the line, relative to the
@@ -200,10 +210,13 @@ Move move_of(const SearchModel& search, const Chain& chain, int leg, double thet
 }
 
 double exact_slack(const SearchModel& search, const Move& move, Work& work) noexcept {
-  const int points = points_along(search, move);
-  const double slack = move_slack(search, move, points, work);
+  const bool disc = search.exact_everywhere;
+  double slack = move_slack(search, move, disc ? 2 : 3, work);
   if (!(slack >= -kStickTolerance)) return slack;
-  return pads_hold_gravity(search, move, points)
+  const int points = points_along(move);
+  if (!ends_decide(search, move, slack)) slack = move_slack(search, move, points, work);
+  if (!(slack >= -kStickTolerance)) return slack;
+  return pads_hold_gravity(search, move, disc ? 2 : points)
              ? slack
              : -std::numeric_limits<double>::infinity();
 }

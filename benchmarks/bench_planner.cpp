@@ -1,0 +1,250 @@
+/// Success, time and cost of the planners, one CSV line per run, failures included.
+///
+/// Sets: `published`, 50 regrasps each of a square and a T; `constructed`, 100 each of
+/// boxes, Ts and cans, feasible by construction. Our own planner runs with its default
+/// budget, once per problem: it draws no random numbers. OMPL's run with a time limit,
+/// once per seed. `search_s` is the search alone, `total_s` all of plan_regrasp: proofs,
+/// search, polish, exact check, bound. A run counts as solved if its plan replays.
+/// Usage: bench_planner [--quick] [--set NAME] [--planner NAME] [--problems N] [--seeds
+/// N]
+///                      [--time-ms N] [-o FILE]
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "benchmarks/measure.h"
+#include "planner/frame.h"
+#include "planner/push_search.h"
+#include "planner/replay.h"
+#include "problems/published_regrasps.h"
+#include "problems/random_regrasps.h"
+
+namespace prehensile::benchmarks {
+namespace {
+
+struct Options {
+  std::string set = "published";
+  std::string planner;  // empty: all
+  int problems = 0;     // of each kind; 0: all
+  int seeds = 3;
+  int time_ms = 1000;
+  const char* file = nullptr;
+};
+
+struct Run {
+  std::string problem, planner;
+  std::uint64_t seed;
+  Plan plan;
+  bool replays = false;
+  double search_seconds = kNan;
+};
+
+std::vector<Scene> scenes(const Options& options) {
+  std::vector<Scene> scenes;
+  const auto first = [&](int all) {
+    return options.problems > 0 ? std::min(options.problems, all) : all;
+  };
+  if (options.set == "published") {
+    for (int i = 0; i < first(kPublishedRegrasps); ++i) {
+      scenes.push_back(published_square(i));
+      scenes.push_back(published_tee(i));
+    }
+    return scenes;
+  }
+  constexpr int kConstructed = 100;
+  constexpr std::uint64_t kSeed = 1;
+  for (int i = 0; i < first(kConstructed); ++i) {
+    for (const auto& [family, label] :
+         {std::pair(RegraspFamily::kBox, "box "), std::pair(RegraspFamily::kTee, "T "),
+          std::pair(RegraspFamily::kCylinder, "can ")}) {
+      scenes.push_back(random_regrasp(family, kSeed, i).scene);
+      scenes.back().name = label + std::to_string(i + 1);
+    }
+  }
+  return scenes;
+}
+
+bool is_own(const std::string& planner) { return planner == PlanOptions{}.planner; }
+
+void search_only(const SearchModel& search, const PlanOptions& options) {
+  const Scene& scene = search.model->scene;
+  Work work{.budget = options.budget};
+  if (is_own(options.planner)) {
+    search_pushes(search, scene.start, *scene.goal, options, work);
+  } else {
+    solve_in_frame(search, scene.start, *scene.goal, options, work);
+  }
+}
+
+Run run_planner(const Scene& scene, const std::string& planner, std::uint64_t seed,
+                const Options& options) {
+  const Model model = prepare(scene);
+  PlanOptions wanted;
+  wanted.planner = planner;
+  wanted.seed = seed;
+  if (!is_own(planner)) wanted.time_limit = 1e-3 * options.time_ms;
+  Run run{.problem = scene.name, .planner = planner, .seed = seed};
+  const int batches = is_own(planner) ? 3 : 1;
+  const SearchModel search = prepare_search(model, wanted.margin);
+  run.search_seconds = 1e-6 * time_us([&] { search_only(search, wanted); }, batches);
+  run.plan = plan_regrasp(model, wanted);
+  run.replays = run.plan.usable() && replay(model, run.plan).agrees;
+  return run;
+}
+
+void write_csv(const Options& options, const std::vector<Run>& runs, std::FILE* out) {
+  std::fputs(
+      "set,problem,planner,seed,status,certified,replays,search_s,total_s,stick_tests,"
+      "propagations,pushes,placements,travel,cost,bound,published_cost,time_limit_s,"
+      "compiler,cpu\n",
+      out);
+  const std::string compiler = field(compiler_name());
+  const std::string cpu = field(cpu_name());
+  for (const Run& run : runs) {
+    const Plan& plan = run.plan;
+    std::fprintf(out,
+                 "%s,%s,%s,%llu,%s,%d,%d,%.4g,%.4g,%lld,%lld,%zu,%.0f,%.6g,%.6g,%.6g,"
+                 "%.3g,%.4g,%s,%s\n",
+                 options.set.c_str(), field(run.problem).c_str(), run.planner.c_str(),
+                 static_cast<unsigned long long>(run.seed), name(plan.status).data(),
+                 plan.usable() ? 1 : 0, run.replays ? 1 : 0, run.search_seconds,
+                 plan.seconds, static_cast<long long>(plan.stick_tests),
+                 static_cast<long long>(plan.propagations), plan.pushes.size(),
+                 plan.placements, plan.travel, plan.cost, plan.lower_bound,
+                 plan.published_cost, is_own(run.planner) ? 0.0 : 1e-3 * options.time_ms,
+                 compiler.c_str(), cpu.c_str());
+  }
+}
+
+/// Wilson's 95 % interval of a share.
+struct Interval {
+  double low, high;
+};
+Interval wilson(int hits, int runs) {
+  constexpr double kZ = 1.959964;
+  const double n = runs;
+  const double p = hits / n;
+  const double centre = (p + kZ * kZ / (2 * n)) / (1 + kZ * kZ / n);
+  const double half =
+      kZ / (1 + kZ * kZ / n) * std::sqrt(p * (1 - p) / n + kZ * kZ / (4 * n * n));
+  return {centre - half, centre + half};
+}
+
+/// One line per planner; costs over its solved runs.
+void write_summary(const std::vector<std::string>& planners, const std::vector<Run>& runs,
+                   std::FILE* out) {
+  std::fprintf(out, "%-12s%6s%8s%16s%12s%10s%10s%11s%8s%8s%8s%11s\n", "planner", "runs",
+               "solved", "95 %", "search med", "p99 ms", "worst ms", "total med", "S med",
+               "J med", "gap med", "published");
+  for (const std::string& planner : planners) {
+    std::vector<double> search, total, placements, cost, gap, published;
+    int count = 0;
+    for (const Run& run : runs) {
+      if (run.planner != planner) continue;
+      ++count;
+      search.push_back(1e3 * run.search_seconds);
+      total.push_back(1e3 * run.plan.seconds);
+      if (!run.replays) continue;
+      placements.push_back(run.plan.placements);
+      cost.push_back(run.plan.cost);
+      gap.push_back(run.plan.gap());
+      published.push_back(run.plan.published_cost);
+    }
+    if (count == 0) continue;
+    const int solved = static_cast<int>(cost.size());
+    const Interval interval = wilson(solved, count);
+    std::fprintf(out,
+                 "%-12s%6d%8d%8.1f-%5.1f %%%9.4f ms%10.3f%10.3f%8.2f ms%8.0f%8.3f%7.1f "
+                 "%%%10.2f\n",
+                 planner.c_str(), count, solved, 100.0 * interval.low,
+                 100.0 * interval.high, quantile(search, 0.5), quantile(search, 0.99),
+                 quantile(search, 1.0), quantile(total, 0.5), quantile(placements, 0.5),
+                 quantile(cost, 0.5), 100.0 * quantile(gap, 0.5),
+                 quantile(published, 0.5));
+  }
+}
+
+bool read_number(const char* text, int& value) {
+  char* end = nullptr;
+  const long number = std::strtol(text, &end, 10);
+  value = static_cast<int>(number);
+  return end != text && *end == '\0' && number >= 0 && number <= 1'000'000;
+}
+
+bool read_options(int count, char** arguments, Options& options) {
+  for (int i = 1; i < count; ++i) {
+    const std::string option = arguments[i];
+    if (option == "--quick") {
+      options.problems = 3;
+      options.seeds = 1;
+      options.time_ms = 200;
+      continue;
+    }
+    if (i + 1 == count) return false;
+    const char* value = arguments[++i];
+    if (option == "-o") {
+      options.file = value;
+    } else if (option == "--set") {
+      options.set = value;
+    } else if (option == "--planner") {
+      options.planner = value;
+    } else if (option == "--problems") {
+      if (!read_number(value, options.problems)) return false;
+    } else if (option == "--seeds") {
+      if (!read_number(value, options.seeds)) return false;
+    } else if (option == "--time-ms") {
+      if (!read_number(value, options.time_ms)) return false;
+    } else {
+      return false;
+    }
+  }
+  return options.set == "published" || options.set == "constructed";
+}
+
+std::vector<std::string> wanted_planners(const Options& options) {
+  std::vector<std::string> planners = planner_names();
+  if (!options.planner.empty()) {
+    std::erase_if(planners, [&](const std::string& p) { return p != options.planner; });
+  }
+  return planners;
+}
+
+int run(int count, char** arguments) {
+  Options options;
+  const bool readable = read_options(count, arguments, options);
+  const std::vector<std::string> planners = wanted_planners(options);
+  if (!readable || planners.empty()) {
+    std::fputs(
+        "usage: bench_planner [--quick] [--set published|constructed] [--planner NAME]\n"
+        "                     [--problems N] [--seeds N] [--time-ms N] [-o FILE]\n",
+        stderr);
+    return 2;
+  }
+  std::FILE* out = options.file ? std::fopen(options.file, "w") : stdout;
+  if (!out) {
+    std::fprintf(stderr, "error: cannot write %s\n", options.file);
+    return 2;
+  }
+  std::vector<Run> runs;
+  for (const Scene& scene : scenes(options)) {
+    for (const std::string& planner : planners) {
+      const int seeds = is_own(planner) ? 1 : options.seeds;
+      for (int seed = 1; seed <= seeds; ++seed) {
+        runs.push_back(
+            run_planner(scene, planner, static_cast<std::uint64_t>(seed), options));
+      }
+    }
+  }
+  write_csv(options, runs, out);
+  const bool written = std::ferror(out) == 0 && (out == stdout || std::fclose(out) == 0);
+  write_summary(planners, runs, stderr);
+  return written ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace prehensile::benchmarks
+
+int main(int count, char** arguments) {
+  return prehensile::benchmarks::run(count, arguments);
+}

@@ -99,10 +99,16 @@ Obstacle PushInstant::solve(const Seat& seat, double s, const Vec2& q,
 }
 
 Obstacle PushInstant::explained(const Obstacle& obstacle) const noexcept {
-  const bool ambiguous = obstacle.status == TransitionStatus::kAmbiguous;
-  if (!ambiguous || gravity_slack(answer().grasp) > kHeld) return obstacle;
-  return {TransitionStatus::kFalls, EventKind::kGravityLost,
-          "the grasp alone does not hold gravity"};
+  using enum TransitionStatus;
+  Obstacle found = obstacle;
+  if (obstacle.status == kPusherLost) {
+    PlanarSolveOptions thorough = options_;
+    thorough.probe_multiplicity = true;
+    const PlanarInstant all = solve_planar(answer().grasp, answer().drive, thorough);
+    if (all.status == InstantStatus::kAmbiguous) found = obstacle_of(all.status);
+  }
+  if (found.status != kAmbiguous || gravity_slack(answer().grasp) > kHeld) return found;
+  return {kFalls, EventKind::kGravityLost, "the grasp alone does not hold gravity"};
 }
 
 void PushInstant::read(const Seat& seat, Answer& answer) const noexcept {

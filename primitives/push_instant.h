@@ -35,8 +35,9 @@ class PushInstant {
   Obstacle solve(const Seat& seat, double s, const Vec2& q,
                  Search search = Search::kOneMotion) noexcept;
 
-  /// The reason behind an obstacle that the last instant met: an instant is called
-  /// ambiguous also where the pusher has to carry the object.
+  /// The reason behind an obstacle that the last instant met: a pusher that leaves the
+  /// object might drag it along as well, and an instant is called ambiguous also where
+  /// the pusher has to carry the object.
   Obstacle explained(const Obstacle& obstacle) const noexcept;
 
   /// Keeps the last answer while others are sought, and brings it back.

@@ -16,10 +16,10 @@ int main() {
   scene.gripper.pad = DiscPad{.radius = 0.009};
   scene.gripper.friction = {0.5, 0.5};
   scene.gripper.grip_force = 20.0;
-  scene.pushers = {{.name = "pin", .feature = PointFeature{}, .friction = 0.3}};
+  scene.pushers = {{.name = "pin", .feature = PointFeature{}, .friction = 0.2}};
   const Model model = prepare(scene);
 
-  const LinearPush push{.contact = 0, .place = 0.008, .e = {1.0, 0.0}, .travel = 0.015};
+  const LinearPush push{.contact = 0, .place = 0.014, .e = {1.0, 0.0}, .travel = 0.020};
   std::vector<Sample> samples;
   const Transition transition = apply(model, scene.start, push, {}, &samples);
 
@@ -29,7 +29,7 @@ int main() {
   for (int i = 0; i < transition.event_count; ++i) {
     const Event& event = transition.events[i];
     std::printf("%s after %.2f mm\n", std::string(name(event.kind)).c_str(),
-                15.0 * event.s);
+                20.0 * event.s);
   }
   std::printf("force %.2f N at the start, %.2f N at the end\n",
               samples.front().push_force, samples.back().push_force);

@@ -16,7 +16,7 @@ template <class Function>
 double least_over_angle(double low, double high, double slope, double accuracy,
                         const Function& f) {
   constexpr int kMostDepth = 40;
-  constexpr int kMostEvaluations = 20'000;
+  constexpr int kMostEvaluations = 1'000'000;
   struct Frame {
     double low, high;
     int depth;

@@ -132,13 +132,12 @@ bool read_options(int count, char** arguments, Options& options) {
     if (i + 1 == count) return false;
     const char* value = arguments[++i];
     long long number = 0;
+    const bool is_number = read_number(value, number);
     if (option == "-o") {
       options.file = value;
-    } else if (!read_number(value, number)) {
-      return false;
-    } else if (option == "--pushes") {
+    } else if (is_number && option == "--pushes") {
       options.pushes = static_cast<int>(number);
-    } else if (option == "--seed") {
+    } else if (is_number && option == "--seed") {
       options.seed = static_cast<std::uint64_t>(number);
     } else {
       return false;

@@ -1,7 +1,6 @@
 #include "planner/chain_search.h"
 
 #include <array>
-#include <cmath>
 
 #include "planner/lattice.h"
 
@@ -26,8 +25,13 @@ constexpr Fineness kSparse = {50, 7};  // for measured rotations, which cost mos
 class ChainSearch {
  public:
   ChainSearch(const SearchModel& search, const FlatState& start, const GoalPlaces& goals,
-              const Limits& limits, Work& work)
-      : search_(search), start_(start), goals_(goals), limits_(limits), work_(work) {
+              double bound, const Limits& limits, Work& work)
+      : search_(search),
+        start_(start),
+        goals_(goals),
+        bound_(bound),
+        limits_(limits),
+        work_(work) {
     if (search.exact_everywhere) {
       steering_.push_back({search});
       return;
@@ -58,12 +62,7 @@ class ChainSearch {
 
  private:
   bool good_enough() const {
-    if (!found_) return false;
-    const GoalPlace& nearest = goals_.places[0];
-    const double distance =
-        std::hypot((nearest.p_OF - start_.p_OF).norm(),
-                   search_.model->c * (nearest.theta[0] - start_.theta));
-    return found_->chain.cost <= kGoodEnough * (2.0 + distance / search_.model->L);
+    return found_ && found_->chain.cost <= kGoodEnough * bound_;
   }
 
   void keep(std::optional<FoundChain> found) {
@@ -129,6 +128,7 @@ class ChainSearch {
   const SearchModel& search_;
   const FlatState& start_;
   const GoalPlaces& goals_;
+  double bound_;
   const Limits& limits_;
   Work& work_;
   std::vector<Steering> steering_;
@@ -138,10 +138,10 @@ class ChainSearch {
 }  // namespace
 
 std::optional<FoundChain> search_chains(const SearchModel& search, const FlatState& start,
-                                        const GoalPlaces& goals, const Limits& limits,
-                                        Work& work) {
+                                        const GoalPlaces& goals, double bound,
+                                        const Limits& limits, Work& work) {
   if (goals.count == 0) return std::nullopt;
-  return ChainSearch(search, start, goals, limits, work).run();
+  return ChainSearch(search, start, goals, bound, limits, work).run();
 }
 
 }  // namespace prehensile

@@ -15,8 +15,10 @@ namespace prehensile {
 /// Pads that are not isotropic deflect friction from the motion, which the closed form
 /// does not know. For them every stage proposes chains for wider margins first, so that
 /// most proposals pass with the real pad.
+///
+/// `bound`: lower bound of J; no stage is entered once a plan is within 5 % of it.
 std::optional<FoundChain> search_chains(const SearchModel& search, const FlatState& start,
-                                        const GoalPlaces& goals, const Limits& limits,
-                                        Work& work);
+                                        const GoalPlaces& goals, double bound,
+                                        const Limits& limits, Work& work);
 
 }  // namespace prehensile

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "planner/bounds.h"
 #include "planner/chain_search.h"
 #include "planner/roll_step.h"
 
@@ -56,7 +57,8 @@ bool plan_in_plane(const SearchModel& search, const Grasp& start, const Goal& go
     append_move(search, *move, plan);
     return true;
   }
-  const auto found = search_chains(search, from, goals, limits, work);
+  const double bound = lower_bound(*search.model, start, goal);
+  const auto found = search_chains(search, from, goals, bound, limits, work);
   if (!found) return false;
   append_chain(search, from, found->chain, plan);
   return true;

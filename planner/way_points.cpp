@@ -46,7 +46,7 @@ bool crossing(const Vec2& start, const Vec2& e_1, const Vec2& goal, const Vec2& 
   if (std::abs(sine) < 1e-3) return false;
   const Vec2 d = start - goal;
   const double s = cross(d, e_2) / sine;
-  const double r = cross(d, e_1) / sine;
+  const double r = cross(e_1, d) / sine;
   if (s < kShortestLeg || r < kShortestLeg) return false;
   p_OF = start - s * e_1;
   return true;
@@ -93,7 +93,7 @@ void add_crossings(const Steering& steering, const FlatState& start,
   Chain chain;
   for (int i = 0; i < contacts; ++i) {
     const Directions from = promising_directions(search, i, start.p_OF);
-    for (int j = 0; j < contacts; ++j) {
+    for (int j = 0; j < contacts && !work.spent(); ++j) {
       const Directions to = promising_directions(search, j, goal);
       for (int k = 0; k < from.count * to.count; ++k) {
         Vec2 p_OF;

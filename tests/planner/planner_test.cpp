@@ -144,7 +144,7 @@ TEST(Planner, SmallBudgetIsUndecidedAndSaysSo) {
   const Model model = prepare(scene);
   EXPECT_TRUE(solves(model));
   PlanOptions options;
-  options.budget = 20;
+  options.budget = 5;
   const Plan plan = plan_regrasp(model, options);
   EXPECT_EQ(plan.status, PlanStatus::kBudgetSpent);
   EXPECT_FALSE(plan.usable());

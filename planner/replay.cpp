@@ -10,8 +10,9 @@
 namespace prehensile {
 namespace {
 
-constexpr double kForceTolerance = 0.05;  // relative; extrema of differently spaced samples
-constexpr double kCostTolerance = 1e-6;   // relative; the plan file rounds nothing
+constexpr double kForceTolerance =
+    0.05;  // relative; extrema of differently spaced samples
+constexpr double kCostTolerance = 1e-6;  // relative; the plan file rounds nothing
 
 double position_error(const Grasp& a, const Grasp& b) {
   return std::hypot(a.X_HO.x - b.X_HO.x, a.X_HO.y - b.X_HO.y);

@@ -43,9 +43,10 @@ struct Pivot {
 /// Roll (paper VII-C): the pusher, a support under a round object, moves along the
 /// closing direction; the object turns about its own axis by travel / radius.
 ///
-/// A grasp that holds the object against gravity leaves it open whether the support or the
-/// fingers carry it. So the fingers may loosen: the support takes the weight, the object
-/// rolls, the fingers close again. A loose grip is also what the paper finds to roll best.
+/// A grasp that holds the object against gravity leaves it open whether the support or
+/// the fingers carry it. So the fingers may loosen: the support takes the weight, the
+/// object rolls, the fingers close again. A loose grip is also what the paper finds to
+/// roll best.
 struct Roll {
   int contact = 0;
   double travel = 0.0;      ///< [m] signed, along +z of H

@@ -2,14 +2,18 @@
 
 #include <algorithm>
 
+#include <Eigen/SVD>
+
 #include "mechanics/certificate.h"
 
 namespace prehensile {
 namespace {
 
-constexpr double kClaimed = 1e-9;  ///< tolerance of inequalities in claims
-constexpr double kAtRest = 1e-7;   ///< rates below this count as sticking, in units
-constexpr double kFails = 1.0;     ///< the claim is false
+constexpr double kClaimed = 1e-9;   ///< tolerance of inequalities in claims
+constexpr double kAtRest = 1e-7;    ///< rates below this count as sticking, in units
+constexpr double kPivots = 1e-9;    ///< the same for finger points, relative to the pads
+constexpr double kPointPad = 1e-6;  ///< pads this small count as one point, in units
+constexpr double kFails = 1.0;      ///< the claim is false
 
 double pad_capacity(const PlanarGrasp& grasp) {
   double sum = 0.0;
@@ -36,133 +40,129 @@ bool clearly_held(const PlanarGrasp& grasp, const CertificateUnits& units) {
   return square > 0.0 && force_share + std::abs(w[2]) * reach / square < 1.0;
 }
 
-/// Least squares over friction sets by accelerated projected gradient: the wrenches that
-/// a twist leaves open, driven to balance. A cold path, so simple beats fast.
+/// Forces that a given twist leaves open, driven as close to balance as they go:
+/// multiples
+/// >= 0 of at most four edges of the pusher's cones, and a finger point at rest that
+/// takes any force within its bound. The best multiples use linearly independent edges,
+/// so all small subsets of edges are tried; each is a linear least-squares problem.
 class Balance {
  public:
   explicit Balance(const Vec3& rest) : rest_(rest) {}
 
-  /// Adds a force with rows (2 x 3 wrench map) and its admissible set.
-  enum class Set { kCone, kRayPlus, kRayMinus, kDisc };
-  void add(const Eigen::Matrix<double, 3, 2>& map, Set set, double size) {
-    if (count_ == kCapacity) return;
-    forces_[count_++] = {map, set, size, Vec2::Zero(), Vec2::Zero()};
+  /// `wrench` comes with a normal force of 1.
+  void add_edge(const Vec3& wrench) {
+    const double size = wrench.norm();
+    edges_[count_] = wrench / size;
+    normals_[count_++] = 1.0 / size;
   }
 
-  /// Prescribes the sum of the first components of the cone and ray forces.
+  /// The finger point at rest: its lever and bound. Points in the same place add up.
+  void add_pivot(const Vec2& lever, double bound) {
+    if (has_pivot_ && (lever - pivot_).norm() > 4.0 * kPointPad) several_ = true;
+    has_pivot_ = true;
+    pivot_ = lever;
+    bound_ += bound;
+  }
+
   void prescribe_normal_sum(double sum) {
     prescribed_ = true;
     normal_sum_ = sum;
   }
 
-  double least_violation() {
-    double stiffness = prescribed_ ? count_ : 0.0;
-    for (int i = 0; i < count_; ++i) stiffness += forces_[i].map.squaredNorm();
-    if (count_ == 0) return violation();
-    double momentum = 1.0;
-    for (int step = 0; step < kSteps && violation() > kEnough; ++step) {
-      const Vec3 gap = wrench(true);
-      const double excess = normal_excess(true);
-      const double next = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * momentum * momentum));
-      const double carry = (momentum - 1.0) / next;
-      double uphill = 0.0;
-      for (int i = 0; i < count_; ++i) {
-        Force& force = forces_[i];
-        Vec2 gradient = force.map.transpose() * gap;
-        if (prescribed_ && force.set != Set::kDisc) gradient.x() += excess;
-        const Vec2 moved = projected(force, force.ahead - gradient / stiffness);
-        uphill += (force.ahead - moved).dot(moved - force.now);
-        force.ahead = moved + carry * (moved - force.now);
-        force.now = moved;
-      }
-      momentum = next;
-      if (uphill > 0.0) {  // Restart (O'Donoghue and Candes 2015).
-        momentum = 1.0;
-        for (int i = 0; i < count_; ++i) forces_[i].ahead = forces_[i].now;
-      }
+  double least_violation() const {
+    if (several_) return kFails;  // At rest: not another motion.
+    double least = violation(Eigen::Vector4d::Zero());
+    for (int subset = 1; subset < (1 << count_); ++subset) {
+      least = std::min(least, violation(best_multiples(subset)));
     }
-    return violation();
+    return least;
   }
 
  private:
-  static constexpr int kCapacity = PlanarGrasp::kCapacity + 2;
-  static constexpr int kSteps = 20000;
-  static constexpr double kEnough = 1e-10;
-
-  struct Force {
-    Eigen::Matrix<double, 3, 2> map;
-    Set set;
-    double size;  ///< friction coefficient, or radius of the disc
-    Vec2 now, ahead;
+  /// Rows to be made small (first) and to be met (last), as functions of the multiples:
+  /// without a pivot the whole wrench is to be small; with one, its moment about the
+  /// pivot is to vanish and its force to stay within the bound.
+  struct Rows {
+    Eigen::Matrix<double, 4, 5> values = Eigen::Matrix<double, 4, 5>::Zero();
+    int small = 0;
+    int exact = 0;
   };
 
-  static Vec2 onto_ray(const Vec2& y, const Vec2& direction) {
-    return std::max(0.0, y.dot(direction)) / direction.squaredNorm() * direction;
-  }
-
-  static Vec2 projected(const Force& force, const Vec2& y) {
-    switch (force.set) {
-      case Set::kCone:
-        if (std::abs(y.y()) <= force.size * y.x()) return y;
-        return onto_ray(y, {1.0, std::copysign(force.size, y.y())});
-      case Set::kRayPlus:
-        return onto_ray(y, {1.0, force.size});
-      case Set::kRayMinus:
-        return onto_ray(y, {1.0, -force.size});
-      case Set::kDisc:
-        break;
+  Rows rows() const {
+    Rows rows;
+    Eigen::Matrix<double, 3, 5> wrenches;
+    for (int k = 0; k < 4; ++k) wrenches.col(k) = k < count_ ? edges_[k] : Vec3::Zero();
+    wrenches.col(4) = rest_;
+    if (has_pivot_) {  // Moments about the pivot.
+      wrenches.row(2) -= pivot_.x() * wrenches.row(1) - pivot_.y() * wrenches.row(0);
     }
-    const double length = y.norm();
-    return length > force.size ? Vec2(force.size / length * y) : y;
-  }
-
-  Vec3 wrench(bool ahead) const {
-    Vec3 sum = rest_;
-    for (int i = 0; i < count_; ++i) {
-      sum += forces_[i].map * (ahead ? forces_[i].ahead : forces_[i].now);
+    rows.values.topRows<3>() = wrenches;
+    rows.small = has_pivot_ ? 2 : 3;
+    rows.exact = has_pivot_ ? 1 : 0;
+    if (prescribed_) {
+      for (int k = 0; k < count_; ++k)
+        rows.values(rows.small + rows.exact, k) = normals_[k];
+      rows.values(rows.small + rows.exact, 4) = -normal_sum_;
+      ++rows.exact;
     }
-    return sum;
+    return rows;
   }
 
-  double normal_excess(bool ahead) const {
-    if (!prescribed_) return 0.0;
-    double sum = -normal_sum_;
-    for (int i = 0; i < count_; ++i) {
-      if (forces_[i].set == Set::kDisc) continue;
-      sum += ahead ? forces_[i].ahead.x() : forces_[i].now.x();
+  /// Least squares over the edges of a subset; rows to be met weigh more.
+  Eigen::Vector4d best_multiples(int subset) const {
+    const Rows all = rows();
+    Eigen::Matrix4d matrix = all.values.leftCols<4>();
+    Eigen::Vector4d right = -all.values.col(4);
+    matrix.middleRows(all.small, all.exact) *= kWeight;
+    right.segment(all.small, all.exact) *= kWeight;
+    for (int k = 0; k < 4; ++k) {
+      if (k >= count_ || (subset >> k & 1) == 0) matrix.col(k).setZero();
     }
-    return sum;
+    const Eigen::JacobiSVD<Eigen::Matrix4d> factors(
+        matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    return Eigen::Vector4d(factors.solve(right)).cwiseMax(0.0);
   }
 
-  double violation() const {
-    return worse(wrench(false).norm(), std::abs(normal_excess(false)));
+  double violation(const Eigen::Vector4d& multiples) const {
+    const Rows all = rows();
+    const Eigen::Vector4d gap = all.values.leftCols<4>() * multiples + all.values.col(4);
+    const double small = gap.head(all.small).norm();
+    double worst = has_pivot_ ? std::max(0.0, small - bound_) : small;
+    for (int k = 0; k < all.exact; ++k)
+      worst = worse(worst, std::abs(gap[all.small + k]));
+    return worst;
   }
+
+  static constexpr double kWeight = 1e4;
 
   Vec3 rest_;
   int count_ = 0;
-  std::array<Force, kCapacity> forces_;
+  std::array<Vec3, 4> edges_;
+  std::array<double, 4> normals_{};
+  bool has_pivot_ = false;
+  bool several_ = false;
+  Vec2 pivot_ = Vec2::Zero();
+  double bound_ = 0.0;
   bool prescribed_ = false;
   double normal_sum_ = 0.0;
 };
 
-/// Wrench of a unit force along each of two directions at p.
-Eigen::Matrix<double, 3, 2> force_map(const CertificateUnits& units, const Vec2& p,
-                                      const Vec2& first, const Vec2& second) {
+/// Wrench of a force at p.
+Vec3 wrench_at(const CertificateUnits& units, const Vec2& p, const Vec2& f) {
   const Vec2 r = (p - units.centre) / units.length;
-  Eigen::Matrix<double, 3, 2> map;
-  map << first.x(), second.x(),  //
-      first.y(), second.y(),     //
-      r.x() * first.y() - r.y() * first.x(), r.x() * second.y() - r.y() * second.x();
-  return map;
+  return {f.x(), f.y(), r.x() * f.y() - r.y() * f.x()};
 }
 
-bool parts_or_is_at_right_angles(const PlanarDrive& drive, const PlanarTwist& v,
-                                 double mu) {
+/// No force of a pusher with friction mu works against v.
+bool is_unopposed(const PlanarDrive& drive, const PlanarTwist& v, double mu,
+                  const CertificateUnits& units) {
   for (int i = 0; i < drive.count; ++i) {
     const Vec2 rate = velocity(v, drive.p_HC[i].x(), drive.p_HC[i].y());
     const double opening = drive.n_H.dot(rate);
     const double slip = drive.t_H().dot(rate);
-    const double size = v.head<2>().norm() + std::abs(v[2]) * drive.p_HC[i].norm();
+    const double lever = units.length + (drive.p_HC[i] - units.centre).norm();
+    const double size =
+        velocity(v, units.centre.x(), units.centre.y()).norm() + std::abs(v[2]) * lever;
     const double scale = size * std::sqrt(1.0 + mu * mu);
     if (opening - mu * std::abs(slip) < -kClaimed * scale) return false;
   }
@@ -170,12 +170,12 @@ bool parts_or_is_at_right_angles(const PlanarDrive& drive, const PlanarTwist& v,
 }
 
 double dynamic_violation(const PlanarGrasp& grasp, const PlanarDrive& drive,
-                         const PlanarTwist& v) {
+                         const PlanarTwist& v, const CertificateUnits& units) {
   if (!v.allFinite()) return kNan;
   const double gain = grasp.w_g.dot(v) - friction_power(grasp, v);
   if (!(gain > 0.0)) return kFails;
-  const bool cannot_be_held = parts_or_is_at_right_angles(drive, v, drive.mu);
-  const bool falls_away = parts_or_is_at_right_angles(drive, v, 0.0);
+  const bool cannot_be_held = is_unopposed(drive, v, drive.mu, units);
+  const bool falls_away = is_unopposed(drive, v, 0.0, units);
   return cannot_be_held || falls_away ? 0.0 : kFails;
 }
 
@@ -209,17 +209,23 @@ double rest_violation(const PlanarDrive& drive, const PlanarInstant& answer,
   return worst;
 }
 
+/// The ends of the interval are extreme, where balance is hard to find; forces within a
+/// thousandth of its length from them must occur.
 double interval_violation(const PlanarGrasp& grasp, const PlanarDrive& drive,
                           const PlanarInstant& answer, const CertificateUnits& units) {
   double sum = 0.0;
   for (int i = 0; i < drive.count; ++i) sum += answer.pusher[i].normal_force;
   const double below = (answer.force_low - sum) / units.force;
   const double above = (sum - answer.force_high) / units.force;
-  const double low =
-      motion_violation(grasp, drive, answer.V_HO, units, std::max(0.0, answer.force_low));
-  const double high = motion_violation(grasp, drive, answer.V_HO, units,
-                                       std::max(0.0, answer.force_high));
-  return worse(worse(worse(below, above), worse(low, high)), 0.0);
+  if (std::isnan(below) || std::isnan(above)) return kNan;
+  const double inward = 1e-3 * (answer.force_high - answer.force_low);
+  double worst = std::max({0.0, below, above});
+  for (const double end : {answer.force_low + inward, answer.force_high - inward}) {
+    worst = worse(worst, -end / units.force);
+    worst = worse(worst,
+                  motion_violation(grasp, drive, answer.V_HO, units, std::max(0.0, end)));
+  }
+  return worst;
 }
 
 }  // namespace
@@ -251,6 +257,7 @@ CertificateUnits pad_units(const PlanarGrasp& grasp) {
   double square = 0.0;
   for (int j = 0; j < grasp.count; ++j) {
     const Vec2 r = Vec2(grasp.x[j], grasp.y[j]) - units.centre;
+    units.lever += grasp.bound[j] / capacity * r.norm();
     square += grasp.bound[j] / capacity * r.squaredNorm();
   }
   units.force = std::max(capacity, grasp.w_g.head<2>().norm());
@@ -273,7 +280,7 @@ CertificateUnits certificate_units(const PlanarGrasp& grasp, const PlanarDrive& 
     distance = std::max(distance, (p - units.centre).norm());
     units.rate = std::max(units.rate, velocity(drive.V_HP, p.x(), p.y()).norm());
   }
-  const bool is_point = grasp.count == 1 || units.length <= 1e-12 * distance;
+  const bool is_point = units.lever <= 1e-12 * distance;
   units.length = std::max(is_point ? 0.0 : units.length, 1e-3 * distance);
   if (units.length == 0.0) units.length = 1.0;
   units.sane = std::isfinite(units.rate) && units.rate > 0.0;
@@ -288,19 +295,36 @@ double friction_power(const PlanarGrasp& grasp, const PlanarTwist& u) {
   return sum;
 }
 
+namespace {
+
+/// Speed below which a finger point is the centre of rotation.
+double pivot_speed(const PlanarTwist& V_HO, const CertificateUnits& units) {
+  const Vec2 v = velocity(V_HO, units.centre.x(), units.centre.y());
+  const bool is_point = units.lever <= kPointPad * units.length;
+  const double lever = is_point ? 4.0 * kPointPad / kPivots * units.length : units.lever;
+  return kPivots * (v.norm() + std::abs(V_HO[2]) * lever);
+}
+
+/// Gravity, inertia, and friction of the finger points that move.
+Vec3 moving_wrench(const PlanarGrasp& grasp, const PlanarTwist& V_HO,
+                   const CertificateUnits& units) {
+  Vec3 sum = units.scaled_wrench(grasp.w_g - grasp.inertia * V_HO);
+  for (int j = 0; j < grasp.count; ++j) {
+    const Vec2 rate = velocity(V_HO, grasp.x[j], grasp.y[j]);
+    const double speed = rate.norm();
+    if (speed <= pivot_speed(V_HO, units)) continue;
+    const Vec2 f = -grasp.bound[j] / (speed * units.force) * rate;
+    sum += wrench_at(units, {grasp.x[j], grasp.y[j]}, f);
+  }
+  return sum;
+}
+
+}  // namespace
+
 double motion_violation(const PlanarGrasp& grasp, const PlanarDrive& drive,
                         const PlanarTwist& V_HO, const CertificateUnits& units,
                         double normal_sum) {
-  Balance balance(units.scaled_wrench(grasp.w_g - grasp.inertia * V_HO) + [&] {
-    Vec3 fingers = Vec3::Zero();
-    for (int j = 0; j < grasp.count; ++j) {
-      const Vec2 rate = velocity(V_HO, grasp.x[j], grasp.y[j]);
-      if (rate.norm() <= kAtRest * units.rate) continue;
-      const Vec2 f = -grasp.bound[j] / (rate.norm() * units.force) * rate;
-      fingers += force_map(units, {grasp.x[j], grasp.y[j]}, {1.0, 0.0}, {0.0, 1.0}) * f;
-    }
-    return fingers;
-  }());
+  Balance balance(moving_wrench(grasp, V_HO, units));
   double penetration = 0.0;
   for (int i = 0; i < drive.count; ++i) {
     const Vec2& p = drive.p_HC[i];
@@ -309,16 +333,16 @@ double motion_violation(const PlanarGrasp& grasp, const PlanarDrive& drive,
     const double slip = drive.t_H().dot(rate);
     penetration = worse(penetration, -opening);
     if (opening > kAtRest) continue;
-    const Balance::Set set = std::abs(slip) <= kAtRest ? Balance::Set::kCone
-                             : slip > 0.0              ? Balance::Set::kRayMinus
-                                                       : Balance::Set::kRayPlus;
-    balance.add(force_map(units, p, drive.n_H, drive.t_H()), set, drive.mu);
+    for (const double side : {1.0, -1.0}) {  // Friction along -t and along +t.
+      if (slip * side < -kAtRest) continue;
+      const Vec2 f = drive.n_H - side * drive.mu * drive.t_H();
+      balance.add_edge(wrench_at(units, p, f));
+    }
   }
   for (int j = 0; j < grasp.count; ++j) {
-    const Vec2 rate = velocity(V_HO, grasp.x[j], grasp.y[j]);
-    if (rate.norm() > kAtRest * units.rate) continue;
-    balance.add(force_map(units, {grasp.x[j], grasp.y[j]}, {1.0, 0.0}, {0.0, 1.0}),
-                Balance::Set::kDisc, grasp.bound[j] / units.force);
+    const Vec2 p(grasp.x[j], grasp.y[j]);
+    if (velocity(V_HO, p.x(), p.y()).norm() > pivot_speed(V_HO, units)) continue;
+    balance.add_pivot((p - units.centre) / units.length, grasp.bound[j] / units.force);
   }
   if (normal_sum >= 0.0) balance.prescribe_normal_sum(normal_sum / units.force);
   return worse(penetration, balance.least_violation());
@@ -341,7 +365,7 @@ double evidence_violation(const PlanarGrasp& grasp, const PlanarDrive& drive,
     case InstantStatus::kAmbiguous:
       return ambiguous_violation(grasp, drive, answer, units);
     case InstantStatus::kDynamic:
-      return dynamic_violation(grasp, drive, answer.evidence);
+      return dynamic_violation(grasp, drive, answer.evidence, units);
     case InstantStatus::kJammed:  // Pads and one flat pusher cannot wedge an object.
     case InstantStatus::kNotRun:
     case InstantStatus::kOutOfIterations:

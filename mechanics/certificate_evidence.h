@@ -14,6 +14,7 @@ inline double worse(double a, double b) { return std::isnan(a) || a >= b ? a : b
 struct CertificateUnits {
   bool sane = false;           ///< the question makes sense
   Vec2 centre = Vec2::Zero();  ///< [m] moments are judged about this point
+  double lever = 0.0;          ///< [m] mean lever of the pads
   double length = 0.0;         ///< [m]
   double force = 0.0;          ///< [N]
   double rate = 0.0;           ///< [m/s] (or [m/s^2])

@@ -20,11 +20,15 @@ enum class InstantStatus {
   kHolds,   ///< the object stands still and the pusher slides along it; forces valid
   kNonuniqueForces,  ///< the motion is unique, the forces are one valid choice; interval
                      ///< set
-  kAmbiguous,  ///< at least two certified motions: twist and `other` (or gravity is not
-               ///< held by the grasp alone and the pusher carries the object)
+  kAmbiguous,  ///< at least two certified motions: twist and `other`; or gravity is not
+               ///< held by the grasp alone (`evidence` is a twist by which it gains at
+               ///< least as much power as friction takes) and the pusher carries the
+               ///< object
   kSeparated,  ///< the pusher leaves the object, which stays in the grasp
-  kDynamic,    ///< no quasi-static equilibrium: `evidence` is a twist with which gravity
-               ///< gains more power than friction can take; the object falls
+  kDynamic,    ///< no quasi-static motion: `evidence` is a twist with which gravity gains
+               ///< more power than friction can take, and which no pusher force opposes
+               ///< (or, where friction at the pusher might, parts from it); the object
+               ///< falls
   kJammed,     ///< no motion is possible: `evidence` is a self-balanced set of forces
   kOutOfIterations,  ///< no answer; residual says how close the last iterate came
   kBadInput,  ///< a zero push rate, no friction points, or a value that is not finite
@@ -71,7 +75,7 @@ struct PlanarInstant {
   double residual = kNan;  ///< solver's own natural-map residual in units (F0, V0)
   int iterations = 0;
 
-  PlanarTwist evidence = PlanarTwist::Constant(kNan);  ///< see kDynamic
+  PlanarTwist evidence = PlanarTwist::Constant(kNan);  ///< see kDynamic, kAmbiguous
   PlanarTwist other = PlanarTwist::Constant(kNan);     ///< see kAmbiguous, if found
   double force_low = kNan;   ///< see kNonuniqueForces: least and
   double force_high = kNan;  ///< greatest normal push force at this motion [N]

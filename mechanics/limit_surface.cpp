@@ -22,8 +22,8 @@ class UnitSphere {
   Pivot pivot_at(const PlanarTwist&) const { return {}; }
   void choose_pivot_force(const ScaledPush&, Motion&) const {}
 
-  PlanarTwist scaled_twist(const RayExit& exit, double scale) const {
-    return scale * exit.u;
+  PlanarTwist scaled_twist(const PlanarTwist& u, const Pivot&, double scale) const {
+    return scale * u;
   }
 
   bool holds(const PlanarWrench& w, PlanarTwist* unsupported) const {
@@ -54,10 +54,9 @@ class UnitSphere {
     return {true, across + k * across.norm() / std::sqrt(1.0 - k * k) * unit, {}};
   }
 
-  int slides(const PlanarTwist& V, const PlanarTwist& t, const Vec2& m, double target,
-             int slip, int capacity, double* roots) const {
+  int slides(const SlideQuestion& question, int capacity, double* roots) const {
     double found[2];
-    const int count = std::min(capacity, slides_on_sphere(V, t, m, target, slip, found));
+    const int count = std::min(capacity, slides_on_sphere(question, found));
     std::copy_n(found, count, roots);
     return count;
   }

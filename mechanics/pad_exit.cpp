@@ -137,14 +137,19 @@ RayExit PadFriction::exit_of_point(const PlanarWrench& w,
 
 RayExit PadFriction::exit(const PlanarWrench& w, const PlanarWrench& direction,
                           const PlanarTwist* guess) const noexcept {
+  // Unit direction, and the point of the line nearest to the centre of S: pads far from
+  // the pusher would lose digits to large wrenches.
   const double size = direction.norm();
   const PlanarWrench e = direction / size;
-  RayExit exit;
-  if (is_point_) {
-    exit = exit_of_point(w, e);
-    exit.lambda /= size;
-    return exit;
-  }
+  const double ahead = w.dot(e);
+  const PlanarWrench foot = w - ahead * e;
+  RayExit exit = is_point_ ? exit_of_point(foot, e) : exit_of_pads(foot, e, guess);
+  exit.lambda = (exit.lambda - ahead) / size;
+  return exit;
+}
+
+RayExit PadFriction::exit_of_pads(const PlanarWrench& w, const PlanarWrench& e,
+                                  const PlanarTwist* guess) const noexcept {
   const bool use_guess = guess != nullptr && guess->dot(e) > 1e-6 * guess->norm();
   const PlanarTwist start = use_guess ? guess->normalized() : exit_guess(w, e);
   const double enough = 1e-15 * (1.0 + w.norm());
@@ -162,8 +167,7 @@ RayExit PadFriction::exit(const PlanarWrench& w, const PlanarWrench& direction,
       tried = nearest;
       const PivotTest test = test_pivot(nearest, w, e);
       if (test.leaves) {
-        exit = test.exit;
-        exit.lambda /= size;
+        RayExit exit = test.exit;
         exit.steps = step;
         return exit;
       }
@@ -188,7 +192,7 @@ RayExit PadFriction::exit(const PlanarWrench& w, const PlanarWrench& direction,
     if (!better) break;
   }
   if (here.gap.norm() > 1e-9 * (1.0 + w.norm())) return {};
-  return {true, here.lambda / size, here.u, {}, step};
+  return {true, here.lambda, here.u, {}, step};
 }
 
 /// Friction (a e + b turn of r/reach) at every point is admissible for a + b <= 1; that

@@ -35,12 +35,15 @@ PadFriction::Frame PadFriction::frame_of(const PlanarGrasp& grasp) noexcept {
   }
   if (!sane || !(sum > 0.0) || !std::isfinite(sum_x + sum_y)) return frame;
   frame.centre = {sum_x / sum, sum_y / sum};
+  double first = 0.0;
   double second = 0.0;
   for (int j = 0; j < grasp.count; ++j) {
     const Vec2 r = Vec2(grasp.x[j], grasp.y[j]) - frame.centre;
+    first += grasp.bound[j] * r.norm();
     second += grasp.bound[j] * r.squaredNorm();
   }
   frame.length = std::sqrt(second / sum);
+  frame.torque_radius = first / sum;
   frame.force = sum;
   return frame;
 }
@@ -90,9 +93,10 @@ PlanarTwist PadFriction::rotation_about(int j, double omega) const {
   return {omega * y_[j], -(omega * x_[j]), omega};
 }
 
-PlanarTwist PadFriction::scaled_twist(const RayExit& exit, double scale) const noexcept {
-  if (exit.pivot.index < 0) return scale * exit.u;
-  return rotation_about(exit.pivot.index, scale * exit.u[2]);
+PlanarTwist PadFriction::scaled_twist(const PlanarTwist& u, const Pivot& pivot,
+                                      double scale) const noexcept {
+  if (pivot.index < 0) return scale * u;
+  return rotation_about(pivot.index, scale * u[2]);
 }
 
 int PadFriction::nearest_to_centre(const PlanarTwist& u) const noexcept {
@@ -189,27 +193,27 @@ LowestOnLine PadFriction::lowest(const PlanarTwist& u0, const PlanarTwist& d,
   return lowest;
 }
 
-int PadFriction::slides(const PlanarTwist& u0, const PlanarTwist& d, const Vec2& m,
-                        double target, int slip, int capacity,
+int PadFriction::slides(const SlideQuestion& question, int capacity,
                         double* roots) const noexcept {
-  const PlanarTwist stretched(u0[0], u0[1], torque_radius_ * u0[2]);
+  SlideQuestion stretched = question;
+  stretched.V[2] *= torque_radius_;
   double guess[2];
-  const int guesses = slides_on_sphere(stretched, d, m, target, slip, guess);
-  if (u0[2] == 0.0) {
+  const int guesses = slides_on_sphere(stretched, guess);
+  if (question.V[2] == 0.0) {
     const int count = std::min(capacity, guesses);
     std::copy_n(guess, count, roots);
     return count;
   }
-  const SlideEquation equation{points(), u0, d, m, target};
+  const SlideEquation equation{points(), question};
   if (capacity == 1) {
     for (int i = 0; i < guesses; ++i) {
-      if (equation.polish(guess[i]) && guess[i] * slip > 0.0) {
+      if (equation.polish(guess[i]) && question.slips(guess[i])) {
         roots[0] = guess[i];
         return 1;
       }
     }
   }
-  return equation.scan(slip, stretched.norm(), capacity, roots);
+  return equation.scan(stretched.V.norm(), capacity, roots);
 }
 
 }  // namespace prehensile

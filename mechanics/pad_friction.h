@@ -19,6 +19,7 @@ class PadFriction {
   struct Frame {
     Vec2 centre = Vec2::Zero();  ///< [m] in H
     double length = 0.0;         ///< [m] root mean square lever; 0 for a point
+    double torque_radius = 0.0;  ///< [m] mean lever: torque capacity over force capacity
     double force = 0.0;          ///< [N] capacity; 0 or not finite: no friction
   };
   static Frame frame_of(const PlanarGrasp& grasp) noexcept;
@@ -44,17 +45,17 @@ class PadFriction {
   LowestOnLine lowest(const PlanarTwist& u0, const PlanarTwist& d, const PlanarWrench& w,
                       const PlanarTwist* guess) const noexcept;
 
-  /// Roots s of m.f(u0 + s d) = target with the sign of `slip`, f the resisting force and
-  /// d a translation. One root is sought with a bracket that grows; several by a scan.
-  int slides(const PlanarTwist& u0, const PlanarTwist& d, const Vec2& m, double target,
-             int slip, int capacity, double* roots) const noexcept;
+  /// Roots of a slide. One is sought by Newton's method from the sphere's; several, or
+  /// one that this does not find, by a scan.
+  int slides(const SlideQuestion& question, int capacity, double* roots) const noexcept;
 
   /// w lies strictly inside S (for a point: within its bound, and through it). Otherwise
   /// `unsupported` is a twist with D < w.u.
   bool holds(const PlanarWrench& w, PlanarTwist* unsupported) const noexcept;
 
-  /// exit.u times a positive scale; a pivot stays exactly at rest.
-  PlanarTwist scaled_twist(const RayExit& exit, double scale) const noexcept;
+  /// u times a positive scale; a pivot stays exactly at rest.
+  PlanarTwist scaled_twist(const PlanarTwist& u, const Pivot& pivot,
+                           double scale) const noexcept;
 
   /// A pivot whose force is not determined by the motion: the smallest force with which
   /// the pusher obeys its law, and the range of the push force over all such.
@@ -88,6 +89,8 @@ class PadFriction {
   };
   PivotTest test_pivot(int j, const PlanarWrench& w,
                        const PlanarWrench& e) const noexcept;
+  RayExit exit_of_pads(const PlanarWrench& w, const PlanarWrench& e,
+                       const PlanarTwist* guess) const noexcept;
   RayExit exit_of_point(const PlanarWrench& w, const PlanarWrench& e) const noexcept;
   bool clearly_holds(const PlanarWrench& w) const noexcept;
 

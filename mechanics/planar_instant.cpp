@@ -7,8 +7,12 @@
 namespace prehensile {
 namespace {
 
-/// Pads whose lever is this small against their distance from the pusher are one point.
-constexpr double kPointPad = 1e-12;
+/// Pads whose mean lever is this small against their distance from the pusher are one
+/// point: their torque is below the rounding of the pusher's.
+constexpr double kPointPad = 5e-10;
+
+/// Finger points slower than this, relative to the pusher, are said to stick.
+constexpr double kSticks = 1e-8;
 
 struct Problem {
   PadFriction pads;
@@ -27,14 +31,15 @@ bool is_posed(const PlanarGrasp& grasp, const PlanarDrive& drive,
 Problem pose(const PlanarGrasp& grasp, const PlanarDrive& drive,
              PadFriction::Frame frame) {
   const double distance = (drive.p_HC[0] - frame.centre).norm();
-  const bool is_point = !(frame.length > kPointPad * distance);
-  if (is_point) frame.length = distance > 0.0 ? distance : 1.0;
+  const bool is_point = !(frame.torque_radius > kPointPad * distance);
+  if (is_point) frame.length = distance > 0.0 ? 1e-3 * distance : 1.0;
   return {PadFriction(grasp, frame, is_point),
           scaled(grasp.w_g, drive, frame.centre, frame.length, frame.force)};
 }
 
 /// Friction of the pads on the object, point by point.
-void report_fingers(const Problem& problem, const Motion& motion, PlanarInstant& answer) {
+void report_fingers(const PlanarGrasp& grasp, const Problem& problem,
+                    const Motion& motion, PlanarInstant& answer) {
   const PadFriction& pads = problem.pads;
   const bool rests = motion.u.isZero(0.0);
   std::array<Vec2, PlanarGrasp::kCapacity> forces;
@@ -45,8 +50,8 @@ void report_fingers(const Problem& problem, const Motion& motion, PlanarInstant&
   }
   answer.finger_count = pads.count();
   for (int j = 0; j < pads.count(); ++j) {
-    const bool sticks =
-        rests || (motion.pivot.index >= 0 && pads.at(j) == pads.at(motion.pivot.index));
+    const Vec2 rate = point_velocity(answer.V_HO, {grasp.x[j], grasp.y[j]});
+    const bool sticks = rate.norm() <= kSticks * problem.push.units.rate;
     answer.finger[j].force = -problem.push.units.force * forces[j];
     answer.finger[j].mode = sticks ? ContactMode::kStick : ContactMode::kSlip;
   }
@@ -149,14 +154,15 @@ void solve_inertial(const PlanarGrasp& grasp, Problem& problem,
   if (problem.push.count == 2 && modes.both_stick(motion)) {
     answer.status = InstantStatus::kMoves;
     report(problem.push, motion, answer);
-    report_fingers(problem, motion, answer);
+    report_fingers(grasp, problem, motion, answer);
     return;
   }
   solve_with_newton(problem, M, options, answer);
 }
 
-void solve_quasi_static(const Problem& problem, const PlanarSolveOptions& options,
-                        const PlanarWarmStart* warm, PlanarInstant& answer) {
+void solve_quasi_static(const PlanarGrasp& grasp, const Problem& problem,
+                        const PlanarSolveOptions& options, const PlanarWarmStart* warm,
+                        PlanarInstant& answer) {
   Motion known;
   const bool follows =
       warm != nullptr && warm->valid && follow(problem, warm->last, known);
@@ -172,7 +178,7 @@ void solve_quasi_static(const Problem& problem, const PlanarSolveOptions& option
   }
   report(problem.push, verdict, answer);
   if (usable(answer.status) || answer.status == InstantStatus::kAmbiguous) {
-    report_fingers(problem, verdict.motion, answer);
+    report_fingers(grasp, problem, verdict.motion, answer);
   }
 }
 
@@ -189,7 +195,7 @@ PlanarInstant solve_planar(const PlanarGrasp& grasp, const PlanarDrive& drive,
   }
   Problem problem = pose(grasp, drive, frame);
   if (grasp.inertia.isZero(0.0)) {
-    solve_quasi_static(problem, options, warm, answer);
+    solve_quasi_static(grasp, problem, options, warm, answer);
   } else {
     solve_inertial(grasp, problem, options, answer);
   }

@@ -13,8 +13,9 @@
 ///                               leaves S (or, if gravity lies outside, also enters it)
 ///
 /// A `Body` offers D in one of two forms (real pads, ellipsoid):
-///   resistance(u, pivot), exit(w, e, guess), lowest(u, d, w), slides(...), holds(w,
-///   worst), scaled_twist(exit, scale), choose_pivot_force(push, motion).
+///   is_point(), dissipation(u), resistance(u, pivot), pivot_at(u), scaled_twist(u,
+///   pivot, scale), choose_pivot_force(push, motion), exit(w, e, guess), lowest(u, d, w,
+///   guess), slides(question, capacity, roots), holds(w, unsupported).
 #pragma once
 
 #include <algorithm>
@@ -43,11 +44,26 @@ struct LowestOnLine {
   int steps = 0;
 };
 
-/// Roots s, of the sign of `slip`, of m.f = target where f is the direction of V + s t
-/// (V a twist, t a unit translation, m.t = 1): a quadratic. Exact for the unit sphere and
-/// for pushers that do not turn.
-inline int slides_on_sphere(const PlanarTwist& V, const PlanarTwist& t, const Vec2& m,
-                            double target, int slip, double* roots) {
+/// A line pusher whose two ends slip: m.f(V + s t) = target, with f the resisting force,
+/// V a twist, t a unit translation and m.t = 1. Wanted are roots s beyond `start`, on the
+/// side of `slip`.
+struct SlideQuestion {
+  PlanarTwist V, t;
+  Vec2 m;
+  double target;
+  double start;
+  int slip;
+
+  bool slips(double s) const { return (s - start) * slip > 0.0; }
+};
+
+/// On the unit sphere f is the direction of the twist, which makes it a quadratic in s.
+/// Also exact for pads and pushers that do not turn. Returns the number of roots, <= 2.
+inline int slides_on_sphere(const SlideQuestion& question, double* roots) {
+  const PlanarTwist& V = question.V;
+  const PlanarTwist& t = question.t;
+  const Vec2& m = question.m;
+  const double target = question.target;
   const double A = m.dot(V.head<2>());
   const double B = V.dot(t);
   const double target2 = target * target;
@@ -66,7 +82,7 @@ inline int slides_on_sphere(const PlanarTwist& V, const PlanarTwist& t, const Ve
   int count = 0;
   for (int i = 0; i < candidates; ++i) {
     const double s = candidate[i];
-    if (s * slip > 0.0 && (A + s) * target >= 0.0) roots[count++] = s;
+    if (question.slips(s) && (A + s) * target >= 0.0) roots[count++] = s;
   }
   return count;
 }
@@ -87,6 +103,7 @@ class PushModes {
     motion.support = Motion::Support::kBoth;
     motion.u = push_.V;
     motion.pivot = body_.pivot_at(motion.u);
+    motion.u = body_.scaled_twist(motion.u, motion.pivot, 1.0);
     return stuck(motion);
   }
 
@@ -117,7 +134,7 @@ class PushModes {
     if (!(scale > 0.0) || !std::isfinite(scale)) return false;
     motion.steps = exit.steps;
     motion.pivot = exit.pivot;
-    motion.u = body_.scaled_twist(exit, scale);
+    motion.u = body_.scaled_twist(exit.u, exit.pivot, scale);
     return slid(motion);
   }
 
@@ -126,8 +143,12 @@ class PushModes {
     const Vec2 m = push_.t + slip * push_.mu * push_.n;
     const double target = m.dot(push_.w_g.head<2>());
     const PlanarTwist along(push_.t.x(), push_.t.y(), 0.0);
+    // Counted from no tangential motion at the contact, so that an object that hardly
+    // moves is not the difference of two large rates.
+    const double slide = push_.t.dot(point_velocity(push_.V, push_.p[0]));
+    const PlanarTwist base = push_.V - slide * along;
     std::array<double, 4> roots;
-    const int count = body_.slides(push_.V, along, m, target, slip,
+    const int count = body_.slides({base, along, m, target, slide, slip},
                                    std::min<int>(capacity, roots.size()), roots.data());
     int accepted = 0;
     for (int k = 0; k < count; ++k) {
@@ -135,7 +156,7 @@ class PushModes {
       motion = Motion{};
       motion.support = Motion::Support::kBoth;
       motion.slip = slip;
-      motion.u = push_.V + roots[k] * along;
+      motion.u = base + roots[k] * along;
       if (slid(motion)) ++accepted;
     }
     return accepted;

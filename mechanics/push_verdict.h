@@ -42,7 +42,7 @@ bool find_fall(const Body& body, const PlanarWrench& w_g, const PlanarTwist& uns
                const PusherCone& cone, PlanarTwist& fall) {
   const auto falls = [&](const PlanarTwist& v) {
     for (int k = 0; k < cone.count; ++k) {
-      if (cone.edges[k].dot(v) < -1e-12 * v.norm()) return false;
+      if (cone.edges[k].dot(v) < -1e-13 * v.norm()) return false;
     }
     const double gain = w_g.dot(v) - body.dissipation(v);
     if (!(gain > 1e-11 * w_g.norm() * v.norm())) return false;
@@ -57,7 +57,7 @@ bool find_fall(const Body& body, const PlanarWrench& w_g, const PlanarTwist& uns
     if (area <= 1e-24 * w_g.squaredNorm()) continue;
     const PlanarTwist start = (w_g - w_g.dot(e) * e) / area;
     const LowestOnLine low = body.lowest(start, along, PlanarWrench::Zero(), nullptr);
-    if (low.bounded && falls(low.u)) return true;
+    if (low.bounded && falls(low.u - low.u.dot(e) * e)) return true;
     for (int l = 0; l < k; ++l) {
       const PlanarTwist v = e.cross(cone.edges[l]);
       if (falls(v) || falls(-v)) return true;

@@ -15,6 +15,19 @@ double friction_gap(double tangential, double bound, double slip_rate) {
   return std::abs(tangential - std::clamp(tangential - slip_rate, -bound, bound));
 }
 
+/// The force at the point that comes nearest to the wrench; what is left is the misfit.
+double put_on_point(const ScaledPush& push, int i, Motion& motion) {
+  const Vec2& p = push.p[i];
+  const double moment = motion.w[2] - cross(p, motion.w.head<2>());
+  const Vec2 f = motion.w.head<2>() + moment / (1.0 + p.squaredNorm()) * perp(p);
+  motion.w = wrench_of(p, f);
+  motion.normal = {0.0, 0.0};
+  motion.tangential = {0.0, 0.0};
+  motion.normal[i] = push.n.dot(f);
+  motion.tangential[i] = push.t.dot(f);
+  return std::abs(moment) / std::sqrt(1.0 + p.squaredNorm());
+}
+
 /// Splits the wrench between the two ends of a line: the line of action of its force
 /// meets the face at a share of the way from the first end to the second.
 double share_on_line(const ScaledPush& push, Motion& motion) {
@@ -25,24 +38,12 @@ double share_on_line(const ScaledPush& push, Motion& motion) {
   const double normal = push.n.dot(f);
   const double tangential = push.t.dot(f);
   if (std::abs(per_share) <= 1e-300) {
-    motion.normal = {normal, 0.0};
-    motion.tangential = {tangential, 0.0};
-    return std::abs(moment) / (1.0 + push.p[0].norm());
+    return put_on_point(push, 0, motion);
   }
   const double share = moment / per_share;
   motion.normal = {(1.0 - share) * normal, share * normal};
   motion.tangential = {(1.0 - share) * tangential, share * tangential};
   return 0.0;
-}
-
-/// The moment about the point is the misfit, as the error of a force at the point.
-double put_on_point(const ScaledPush& push, int i, Motion& motion) {
-  const Vec2 f = motion.w.head<2>();
-  motion.normal = {0.0, 0.0};
-  motion.tangential = {0.0, 0.0};
-  motion.normal[i] = push.n.dot(f);
-  motion.tangential[i] = push.t.dot(f);
-  return std::abs(motion.w[2] - cross(push.p[i], f)) / (1.0 + push.p[i].norm());
 }
 
 double distribute(const ScaledPush& push, Motion& motion) {
@@ -148,8 +149,9 @@ void report(const ScaledPush& push, const Motion& motion,
       point.mode = ContactMode::kOpen;
     } else if (motion.slip == 0) {
       point.mode = ContactMode::kStick;
-    } else {
-      point.mode = motion.slip > 0 ? ContactMode::kSlipPlus : ContactMode::kSlipMinus;
+    } else {  // Without friction or load both signs are the same proposal.
+      point.mode =
+          point.slip_rate > 0.0 ? ContactMode::kSlipPlus : ContactMode::kSlipMinus;
     }
   }
 }

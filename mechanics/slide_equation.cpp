@@ -1,5 +1,7 @@
 #include "mechanics/slide_equation.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace prehensile {
@@ -8,14 +10,16 @@ namespace {
 constexpr double kEnough = 2e-15;
 constexpr int kNewtonSteps = 12;
 constexpr int kBracketSteps = 100;
-constexpr int kGrid = 96;
+constexpr int kGrid = 48;
 
 }  // namespace
 
 SlideEquation::Value SlideEquation::at(double s) const noexcept {
-  const pad_kernels::Curvature here = pad_kernels::curvature(pads, u0 + s * d);
-  const PlanarWrench turned = here.hessian * d;
-  return {m.dot(here.gradient.head<2>()) - target, m.dot(turned.head<2>())};
+  const pad_kernels::Curvature here =
+      pad_kernels::curvature(pads, question.V + s * question.t);
+  const PlanarWrench turned = here.hessian * question.t;
+  return {question.m.dot(here.gradient.head<2>()) - question.target,
+          question.m.dot(turned.head<2>())};
 }
 
 bool SlideEquation::polish(double& s) const noexcept {
@@ -45,13 +49,27 @@ double SlideEquation::refine(double a, double gap_a, double b) const noexcept {
   return s;
 }
 
-int SlideEquation::scan(int slip, double scale, int capacity,
-                        double* roots) const noexcept {
+int SlideEquation::scan(double scale, int capacity, double* roots) const noexcept {
+  std::array<double, 3 * kGrid> grid;
+  int size = 0;
+  const double far = std::max(scale, std::abs(question.start));
+  for (int k = 1; k < kGrid; ++k) {
+    const double share = k / static_cast<double>(kGrid - k);
+    grid[size++] = question.start + question.slip * far * share;
+    grid[size++] = scale * share;
+    grid[size++] = -scale * share;
+  }
+  const auto nearer = [this](double x, double y) {
+    return (x - y) * question.slip < 0.0;
+  };
+  std::sort(grid.begin(), grid.begin() + size, nearer);
+
   int count = 0;
-  double a = 0.0;
-  double gap_a = at(0.0).gap;
-  for (int k = 1; k < kGrid && count < capacity; ++k) {
-    const double b = slip * scale * k / static_cast<double>(kGrid - k);
+  double a = question.start;
+  double gap_a = at(a).gap;
+  for (int k = 0; k < size && count < capacity; ++k) {
+    const double b = grid[k];
+    if (!nearer(a, b)) continue;
     const double gap_b = at(b).gap;
     if (gap_a * gap_b < 0.0) roots[count++] = refine(a, gap_a, b);
     a = b;

@@ -3,22 +3,21 @@
 #pragma once
 
 #include "mechanics/pad_kernels.h"
+#include "mechanics/push_modes.h"
 
 namespace prehensile {
 
-/// m.f(u0 + s d) = target, f the resisting force of the pads, d a translation.
+/// A SlideQuestion over pads.
 struct SlideEquation {
   PadColumns pads;
-  PlanarTwist u0, d;
-  Vec2 m;
-  double target;
+  SlideQuestion question;
 
   /// Newton's method from s; false if it does not settle.
   bool polish(double& s) const noexcept;
 
-  /// Roots with the sign of `slip`, from sign changes on a grid over the half line whose
-  /// middle lies at `scale`; returns how many (up to `capacity`).
-  int scan(int slip, double scale, int capacity, double* roots) const noexcept;
+  /// Roots beyond the start, from sign changes on a grid that is fine within `scale` of
+  /// rest and of the start, and reaches far; returns how many (up to `capacity`).
+  int scan(double scale, int capacity, double* roots) const noexcept;
 
  private:
   struct Value {

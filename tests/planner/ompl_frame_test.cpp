@@ -160,6 +160,21 @@ TEST(OmplFrame, GoalsMayFixSomeCoordinatesOnly) {
   }
 }
 
+TEST(OmplFrame, OtherPadsAndPushersAreServed) {
+  Scene rectangle = testing::regrasps()[0];
+  rectangle.gripper.pad = RectanglePad{{0.02, 0.014}};
+  rectangle.overhang = Overhang::kClip;
+  Scene points = testing::regrasps()[0];
+  for (Pusher& pusher : points.pushers) pusher.feature = PointFeature{};
+  Scene edges = testing::regrasps()[0];
+  for (Pusher& pusher : edges.pushers) pusher.feature = LineFeature{.length = 0.03};
+  for (const std::string& planner : frame_planners()) {
+    for (const Scene& scene : {rectangle, points, edges}) {
+      expect_chain_of_pushes(solve(scene, planner, 5000));
+    }
+  }
+}
+
 TEST(OmplFrame, RollsAreStepsOfTheirOwn) {
   Scene scene = testing::can_scene();
   scene.goal = Goal{.x = 0.01, .psi = 0.7};

@@ -10,6 +10,17 @@ namespace {
 constexpr std::size_t kMostShown = 60;  // characters of a value in a message
 constexpr std::size_t kMostMessages = 20;
 
+const Place* find_override(const Value& value) {
+  if (value.place.option >= 0) return &value.place;
+  for (const Value& item : value.items) {
+    if (const Place* place = find_override(item)) return place;
+  }
+  for (const Entry& entry : value.entries) {
+    if (const Place* place = find_override(entry.value)) return place;
+  }
+  return nullptr;
+}
+
 /// `a` is `b` or a part of it.
 bool within(std::string_view a, std::string_view b) {
   return a.starts_with(b) && (a.size() == b.size() || b.empty() || a[b.size()] == '.');
@@ -113,6 +124,12 @@ const Value& deepest(const Value& root, std::string_view path) {
     value = next;
   }
   return *value;
+}
+
+Place place_of(const Value& root, std::string_view path) {
+  const Value& value = deepest(root, path);
+  const Place* overridden = find_override(value);
+  return overridden ? *overridden : value.place;
 }
 
 std::string join(const std::string& path, std::string_view key) {

@@ -67,6 +67,10 @@ std::string shown(std::string_view text);
 /// The deepest value on a dotted path that exists.
 const Value& deepest(const Value& root, std::string_view path);
 
+/// Where a fault of the field at this path stands: an override of a part of it, or the
+/// deepest value that exists.
+Place place_of(const Value& root, std::string_view path);
+
 /// Path of a child.
 std::string join(const std::string& path, std::string_view key);
 
@@ -80,6 +84,9 @@ class Faults {
   static Faults of_option(const std::string& option);
 
   void add(const Place& place, const std::string& field, const std::string& what);
+
+  /// Counts a field as faulty without a message of its own.
+  void pass_over(const std::string& field) { fields_.push_back(field); }
 
   /// A fault of this field, of a part of it or of what contains it is known.
   bool concerns(const std::string& field) const;

@@ -82,7 +82,7 @@ const Value* FieldReader::take(const char* key, Need need, const std::string& ex
   known_.emplace_back(key);
   const Value* value = map_.find(key);
   if (!value && need == kRequired) {
-    faults_.add(map_.place, child(key), "missing: expected " + expected);
+    missing_.push_back({{key}, child(key), "missing: expected " + expected});
   }
   return value;
 }
@@ -96,14 +96,16 @@ const Value* FieldReader::choose(const std::vector<const char*>& keys) {
       chosen = value;
     }
   }
-  if (present.size() == 1) return chosen;
-  faults_.add(chosen ? chosen->place : map_.place, path_,
-              (present.empty() ? "missing" : listed(present)) +
-                  ": expected exactly one of " + listed(keys));
-  return nullptr;
+  const std::string expected = ": expected exactly one of " + listed(keys);
+  if (present.empty()) {
+    missing_.push_back({{keys.begin(), keys.end()}, path_, "missing" + expected});
+  } else if (present.size() > 1) {
+    faults_.add(chosen->place, path_, listed(present) + expected);
+  }
+  return present.size() == 1 ? chosen : nullptr;
 }
 
-void FieldReader::refuse_unknown_keys() {
+void FieldReader::finish() {
   for (const Entry& entry : map_.entries) {
     if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
     std::string what = "unknown key: expected ";
@@ -111,6 +113,15 @@ void FieldReader::refuse_unknown_keys() {
     const std::string meant = nearest(entry.key, known_);
     if (!meant.empty()) what += "; did you mean " + meant + '?';
     faults_.add(entry.place, child(entry.key), what);
+    std::erase_if(missing_, [&](const Missing& missing) {
+      const bool is_meant = std::find(missing.keys.begin(), missing.keys.end(), meant) !=
+                            missing.keys.end();
+      if (is_meant) faults_.pass_over(missing.field);
+      return is_meant;
+    });
+  }
+  for (const Missing& missing : missing_) {
+    faults_.add(map_.place, missing.field, missing.what);
   }
 }
 

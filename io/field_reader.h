@@ -24,7 +24,7 @@ class FieldReader {
     if (!is_map(value, path, faults)) return;
     FieldReader reader(value, path, faults);
     visit(reader, into);
-    reader.refuse_unknown_keys();
+    reader.finish();
   }
 
   void version(int number);
@@ -113,11 +113,12 @@ class FieldReader {
 
   std::string child(std::string_view key) const { return join(path_, key); }
 
-  /// The value of a key, or null; a missing required key is a fault.
+  /// The value of a key, or null if it is missing.
   const Value* take(const char* key, Need need, const std::string& expected);
   /// The one key of these that is there; none or several are a fault.
   const Value* choose(const std::vector<const char*>& keys);
-  void refuse_unknown_keys();
+  /// Faults of keys that are missing or unknown; a misspelt key is not missing as well.
+  void finish();
 
   static std::string numbers_of(std::size_t count);
   static std::string one_of(std::span<const std::string_view> words);
@@ -135,6 +136,13 @@ class FieldReader {
   const std::string& path_;
   Faults& faults_;
   std::vector<std::string> known_;
+
+  struct Missing {
+    std::vector<std::string> keys;  // any of which would do
+    std::string field;
+    std::string what;
+  };
+  std::vector<Missing> missing_;
 };
 
 }  // namespace prehensile::internal

@@ -80,12 +80,12 @@ class PushMaker {
  private:
   void fault(const std::string& key, const std::string& what) {
     const std::string path = internal::join(path_, key);
-    faults_.add(internal::deepest(root_, path).place, path, what);
+    faults_.add(internal::place_of(root_, path), path, what);
   }
 
   int contact_of_names(const WrittenPush& record) {
     const int contact = find_contact(model_, record.pusher, record.face);
-    if (contact >= 0) return contact;
+    if (contact >= 0 && !record.face.empty()) return contact;
     std::string faces;
     bool known = false;
     for (const PushContact& other : model_.contacts) {
@@ -167,7 +167,7 @@ class PushMaker {
 void check_agreement(const WrittenPlan& record, const std::string& digest,
                      const Value& root, Faults& faults) {
   const auto fault = [&](const std::string& field, const std::string& what) {
-    faults.add(internal::deepest(root, field).place, field, what);
+    faults.add(internal::place_of(root, field), field, what);
   };
   if (record.scene_digest != digest) {
     fault("scene_digest", internal::shown(record.scene_digest) + ": expected " + digest +

@@ -27,7 +27,7 @@ void add_faults_of_values(const Scene& scene, const Value& root, Faults& faults)
   const Faults unreadable = faults;
   for (const Fault& fault : check(scene)) {
     if (unreadable.concerns(fault.field)) continue;
-    faults.add(internal::deepest(root, fault.field).place, fault.field, fault.what);
+    faults.add(internal::place_of(root, fault.field), fault.field, fault.what);
   }
 }
 

@@ -18,7 +18,10 @@ void TreeBuilder::scalar(Value value, const Place& place) {
 
 void TreeBuilder::open(Value container, const Place& place) {
   if (key_is_due()) {
-    faults_.fail(place, path(), "a key that is a list or a map: expected a word as key");
+    faults_.fail(
+        place, path(),
+        "a list or a map as a key, or a bracket that is never closed: expected a "
+        "word as key");
   }
   if (static_cast<int>(open_.size()) >= kDeepest) {
     faults_.fail(
@@ -57,6 +60,8 @@ void TreeBuilder::put(Value value) {
     frame.value.items.push_back(std::move(value));
     return;
   }
+  // An empty value has no place of its own: parsers mark what follows it.
+  if (value.kind == Value::Kind::kNull) value.place = frame.pending->place;
   frame.pending->value = std::move(value);
   if (!frame.skips) frame.value.entries.push_back(std::move(*frame.pending));
   frame.pending.reset();

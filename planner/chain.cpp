@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mechanics/certificate.h"
+#include "planner/holding.h"
 #include "planner/pad_kappas.h"
 
 namespace prehensile {
@@ -11,9 +11,6 @@ namespace {
 
 constexpr int kMaxCombinations = 256;
 constexpr double kMostKappa = 1e4;  // beyond it a leg is a rotation on the spot
-
-/// Slack of gravity above rounding, in units of the friction force.
-constexpr double kFirmlyHeld = 1e-6;
 
 using Intervals = std::array<KappaSet::Interval, Chain::kMaxLegs>;
 
@@ -92,37 +89,6 @@ int points_along(const Move& move) {
   const double steps = std::max((move.to.p_OF - move.from.p_OF).norm() / 2e-3,
                                 std::abs(move.to.theta - move.from.theta) / 0.1);
   return static_cast<int>(std::clamp(std::ceil(steps) + 1.0, 3.0, 50.0));
-}
-
-/// Friction bodies of whole flat pads from the disc to the line, relative to the
-/// ellipsoid of the same F and c, lie between 0.86 and 1.04: so far from the border the
-/// ellipsoid decides.
-constexpr double kSurelyHeld = 1.0 - 0.84;
-constexpr double kSurelyNotHeld = 1.0 - 1.06;
-
-bool pads_hold_gravity(const SearchModel& search, const PlanarPose& X_HO,
-                       const Vec2& g_O) {
-  const Model& model = *search.model;
-  if (!can_roll(model.scene.object) && model.region.is_whole(X_HO)) {
-    const double slack =
-        holding_slack(model, finger_in_object(X_HO), g_O, Margin::none());
-    if (slack >= kSurelyHeld) return true;
-    if (slack <= kSurelyNotHeld) return false;
-  }
-  return gravity_slack(grasp_at(model, X_HO, g_O)) > kFirmlyHeld;
-}
-
-/// Whether the pads alone hold gravity at points along a move.
-bool pads_hold_gravity(const SearchModel& search, const Move& move, int points) {
-  const Vec2& g_O = search.model->contacts[search.contacts[move.contact].contact].g_O;
-  if (g_O.isZero(0.0)) return true;
-  for (int i = 0; i < points; ++i) {
-    const double share = static_cast<double>(i) / (points - 1);
-    if (!pads_hold_gravity(search, pose_along(move.from, move.to, share), g_O)) {
-      return false;
-    }
-  }
-  return true;
 }
 
 /// By the ellipsoid; a can's line of contact need not pass under the finger axis, so it
@@ -210,15 +176,9 @@ Move move_of(const SearchModel& search, const Chain& chain, int leg, double thet
 }
 
 double exact_slack(const SearchModel& search, const Move& move, Work& work) noexcept {
-  const bool disc = search.exact_everywhere;
-  double slack = move_slack(search, move, disc ? 2 : 3, work);
-  if (!(slack >= -kStickTolerance)) return slack;
-  const int points = points_along(move);
-  if (!ends_decide(search, move, slack)) slack = move_slack(search, move, points, work);
-  if (!(slack >= -kStickTolerance)) return slack;
-  return pads_hold_gravity(search, move, disc ? 2 : points)
-             ? slack
-             : -std::numeric_limits<double>::infinity();
+  const double slack = move_slack(search, move, search.exact_everywhere ? 2 : 3, work);
+  if (!(slack >= -kStickTolerance) || ends_decide(search, move, slack)) return slack;
+  return move_slack(search, move, points_along(move), work);
 }
 
 void centre_chain(const SearchModel& search, double dtheta, double share,
@@ -245,9 +205,7 @@ void centre_chain(const SearchModel& search, double dtheta, double share,
 bool make_chain_stick(const SearchModel& search, double theta_start, double dtheta,
                       Chain& chain, Work& work) noexcept {
   if (!solve_chain(search, dtheta, chain)) return false;
-  const auto sticks = [&] {
-    return chain_slack(search, chain, theta_start, work) >= -kStickTolerance;
-  };
+  const auto sticks = [&] { return chain_passes(search, chain, theta_start, work); };
   if (sticks()) return true;
   if (chain.count == 1) return false;
   centre_chain(search, dtheta, 0.5, chain);
@@ -256,17 +214,17 @@ bool make_chain_stick(const SearchModel& search, double theta_start, double dthe
   return sticks();
 }
 
-double chain_slack(const SearchModel& search, const Chain& chain, double theta_start,
-                   Work& work) noexcept {
-  double slack = std::numeric_limits<double>::infinity();
+bool chain_passes(const SearchModel& search, const Chain& chain, double theta_start,
+                  Work& work) noexcept {
+  std::array<Move, Chain::kMaxLegs> moves;
   double theta = theta_start;
   for (int k = 0; k < chain.count; ++k) {
-    const Move move = move_of(search, chain, k, theta);
-    slack = std::min(slack, exact_slack(search, move, work));
-    if (slack < -kStickTolerance) return slack;
-    theta = move.to.theta;
+    moves[k] = move_of(search, chain, k, theta);
+    if (!(exact_slack(search, moves[k], work) >= -kStickTolerance)) return false;
+    theta = moves[k].to.theta;
   }
-  return slack;
+  return std::all_of(moves.begin(), moves.begin() + chain.count,
+                     [&](const Move& move) { return pads_hold_gravity(search, move); });
 }
 
 }  // namespace prehensile

@@ -80,9 +80,9 @@ double turn_of(const SearchModel& search, const Chain& chain, int leg);
 /// pad asks for. No heap.
 double exact_slack(const SearchModel& search, const Move& move, Work& work) noexcept;
 
-/// Least slack of a solved chain with the real pad over the margin box, at points along
-/// every move; stops at the first negative one. No heap.
-double chain_slack(const SearchModel& search, const Chain& chain, double theta_start,
-                   Work& work) noexcept;
+/// Whether every move of a solved chain sticks with the real pad over the margin box and
+/// the pads alone hold gravity along it; what costs most is asked last. No heap.
+bool chain_passes(const SearchModel& search, const Chain& chain, double theta_start,
+                  Work& work) noexcept;
 
 }  // namespace prehensile

@@ -71,8 +71,7 @@ bool shorten(const Steering& steering, const Limits& limits, Work& work,
   if (result.x.size() != stretch.way_points.size()) return false;
   return chain_of(steering, stretch, result.x, work, chain) &&
          chain.cost < before * (1.0 - kWorthwhile) &&
-         chain_slack(steering.search, chain, stretch.start.theta, work) >=
-             -kStickTolerance;
+         chain_passes(steering.search, chain, stretch.start.theta, work);
 }
 
 /// Same, with one push of the stretch left out.
@@ -88,8 +87,7 @@ bool drop_a_push(const Steering& steering, Work& work, const Stretch& stretch,
     shorter.way_points.erase(x, x + 2);
     if (chain_of(steering, shorter, shorter.way_points, work, chain) &&
         chain.cost <= before &&
-        chain_slack(steering.search, chain, stretch.start.theta, work) >=
-            -kStickTolerance) {
+        chain_passes(steering.search, chain, stretch.start.theta, work)) {
       return true;
     }
   }

@@ -6,6 +6,7 @@
 
 #include "planner/bounds.h"
 #include "planner/chain_search.h"
+#include "planner/holding.h"
 #include "planner/roll_step.h"
 
 namespace prehensile {
@@ -15,13 +16,6 @@ double flat_distance(const SearchModel& search, const FlatState& a, const FlatSt
   return std::hypot((b.p_OF - a.p_OF).norm(), search.model->c * (b.theta - a.theta));
 }
 
-bool both_ends_held(const SearchModel& search, const Move& move) {
-  if (can_roll(search.model->scene.object)) return true;  // exact_slack decides
-  const Vec2& g_O = search.model->contacts[search.contacts[move.contact].contact].g_O;
-  return holding_slack(*search.model, move.from.p_OF, g_O, Margin::none()) > 0.0 &&
-         holding_slack(*search.model, move.to.p_OF, g_O, Margin::none()) > 0.0;
-}
-
 /// The contact with the most slack for one straight move, by the real pad alone.
 std::optional<Move> best_contact(const SearchModel& search, const FlatState& from,
                                  const FlatState& to, Work& work) noexcept {
@@ -29,9 +23,8 @@ std::optional<Move> best_contact(const SearchModel& search, const FlatState& fro
   double best_slack = -kStickTolerance;
   for (std::size_t i = 0; i < search.contacts.size(); ++i) {
     const Move move{static_cast<int>(i), from, to};
-    if (!both_ends_held(search, move)) continue;
     const double slack = exact_slack(search, move, work);
-    if (!(slack > best_slack)) continue;
+    if (!(slack > best_slack) || !pads_hold_gravity(search, move)) continue;
     best_slack = slack;
     best = move;
   }

@@ -1,0 +1,55 @@
+#include "planner/holding.h"
+
+#include <gtest/gtest.h>
+
+#include "mechanics/certificate.h"
+#include "tests/planner/planner_cases.h"
+#include "tests/support/random.h"
+
+namespace prehensile {
+namespace {
+
+using testing::Random;
+
+/// The cheap answers agree with the certificate's wherever that is not on the edge.
+TEST(Holding, AgreesWithTheSlackOfGravity) {
+  Random random(1);
+  int held = 0;
+  int fallen = 0;
+  for (int i = 0; i < 4000; ++i) {
+    Scene scene = testing::walled_square();
+    const double size = random.in(0.003, 0.012);
+    const double angle = random.in(-1.5, 1.5);
+    const Pad pads[] = {DiscPad{size}, RectanglePad{{2.0 * size, size}},
+                        LinePad{2.0 * size, angle}};
+    scene.gripper.pad = pads[random.below(3)];
+    scene.overhang = random.chance(0.5) ? Overhang::kClip : Overhang::kIgnore;
+    if (random.chance(0.25)) {
+      scene.object.shape = CylinderShape{.radius = 0.04, .length = 0.1, .axis = Axis::kX};
+      scene.gripper.pad = DiscPad{size};
+    }
+    scene.gripper.grip_force = random.log_in(2.0, 30.0);
+    scene.start.X_HO = pose_from_finger({0.001, 0.002}, 0.0);
+    const Model model = prepare(scene);
+    const PlanarPose X_HO =
+        pose_from_finger(random.in_box(0.049, 0.039), random.in(-3.0, 3.0));
+    const Vec2 g_O = 9.81 * random.direction();
+    const double slack = gravity_slack(grasp_at(model, X_HO, g_O));
+    if (std::abs(slack) < 1e-3) continue;
+    EXPECT_EQ(pads_hold_gravity(model, X_HO, g_O), slack > 0.0) << i << " " << slack;
+    (slack > 0.0 ? held : fallen) += 1;
+  }
+  EXPECT_GT(held, 500);
+  EXPECT_GT(fallen, 500);
+}
+
+TEST(Holding, NoGravityIsAlwaysHeld) {
+  Scene scene = testing::walled_square();
+  scene.g_W.setZero();
+  const Model model = prepare(scene);
+  const SearchModel search = prepare_search(model, Margin{});
+  EXPECT_TRUE(pads_hold_gravity(search, {0, {{0.04, 0.0}, 0.0}, {{0.0, 0.0}, 1.0}}));
+}
+
+}  // namespace
+}  // namespace prehensile

@@ -1,0 +1,82 @@
+#include "planner/roll_step.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "planner/planner.h"
+#include "tests/planner/planner_cases.h"
+#include "tests/support/random.h"
+
+namespace prehensile {
+namespace {
+
+using testing::Random;
+
+Scene can_on_floor() {
+  Scene scene;
+  scene.object.shape = CylinderShape{.radius = 0.03, .length = 0.1, .axis = Axis::kX};
+  scene.object.mass = 0.3;
+  scene.gripper.pad = RectanglePad{{0.02, 0.02}};
+  scene.gripper.friction = {0.5, 0.5};
+  scene.gripper.grip_force = 20.0;
+  scene.pushers = {{.name = "floor",
+                    .feature = LineFeature{},
+                    .friction = 0.8,
+                    .normal_angle = 0.5 * std::numbers::pi}};
+  return scene;
+}
+
+TEST(RollStep, SlackTellsWhichRollsComplete) {
+  Random random(1);
+  int rolls = 0;
+  int refused = 0;
+  for (int i = 0; i < 2000; ++i) {
+    Scene scene = can_on_floor();
+    scene.object.mass = random.log_in(0.05, 1.0);
+    scene.pushers[0].friction = random.in(0.05, 1.0);
+    const double friction = random.in(0.1, 0.95);
+    scene.gripper.friction = {friction, friction};
+    const Model model = prepare(scene);
+    const Roll roll{.contact = 0,
+                    .travel = random.chance(0.5) ? 0.01 : -0.01,
+                    .grip_force = random.log_in(0.01, 20.0)};
+    const double slack = roll_slack(model, roll, Margin::none());
+    if (std::abs(slack) < 1e-6) continue;
+    EXPECT_EQ(apply(model, scene.start, roll).completed(), slack > 0.0) << i;
+    (slack > 0.0 ? rolls : refused) += 1;
+    EXPECT_LE(roll_slack(model, roll, Margin{}), slack);
+  }
+  EXPECT_GT(rolls, 200);
+  EXPECT_GT(refused, 200);
+}
+
+TEST(RollStep, LoosensTheGripToRoll) {
+  Scene scene = can_on_floor();
+  scene.goal.emplace();
+  scene.goal->psi = 1.5;
+  const Model model = prepare(scene);
+  const Plan plan = plan_regrasp(model);
+  ASSERT_EQ(plan.status, PlanStatus::kReachedGoal) << plan.message;
+  ASSERT_EQ(plan.pushes.size(), 1U);
+  const Roll& roll = std::get<Roll>(plan.pushes[0].push);
+  const double weight = 9.81 * scene.object.mass;
+  EXPECT_GT(roll.grip_force, 0.0);
+  EXPECT_LT(2.0 * 0.5 * roll.grip_force, weight);
+  EXPECT_GE(plan.pushes[0].slack, 0.0);
+  EXPECT_NEAR(plan.goal.psi, 1.5, 1e-9);
+  EXPECT_NEAR(plan.cost, 1.0 + 0.03 * 1.5 / model.L, 1e-9);
+  EXPECT_LE(plan.lower_bound, plan.cost);
+}
+
+TEST(RollStep, NoRollWithoutASupport) {
+  Scene scene = can_on_floor();
+  scene.pushers[0].friction = 0.0;
+  Plan plan;
+  plan.start = scene.start;
+  EXPECT_FALSE(insert_roll(prepare(scene), 1.0, Margin{}, {}, plan));
+  EXPECT_TRUE(plan.pushes.empty());
+}
+
+}  // namespace
+}  // namespace prehensile

@@ -47,7 +47,44 @@ std::string certificate_text(const InstantReport& report) {
         text("  %-16s %.1e\n",
              std::string(name(static_cast<Certificate::Check>(i))).c_str(), entry.value);
   }
+  if (report.solver == "ipopt" && report.certificate_worst > 1e-6) {
+    out +=
+        "  (expected: this solver's friction cones are polyhedra inside the circular "
+        "ones "
+        "of the certificate; its own laws it meets to the residual above)\n";
+  }
   return out;
+}
+
+/// The reference does not look for other answers.
+std::string meaning_of(const InstantReport& report) {
+  if (report.solver == "ipopt" && report.instant.status == InstantStatus::kMoves) {
+    return "the grasp breaks and the object moves; whether otherwise too is not examined";
+  }
+  return meaning(report.instant.status);
+}
+
+std::string roll_motion(const char* what, const CrossSectionMotion& motion) {
+  return text(
+      "%s: roll rate %.4f deg/s, object %.4f mm/s along the closing direction, %.4f mm/s "
+      "off the support, jaws closing at %.4f mm/s\n",
+      what, to_deg(motion.roll_rate), to_mm(motion.v_z), to_mm(motion.v_u),
+      to_mm(motion.jaw_rate));
+}
+
+/// Forces of the three contacts; with their modes where those are given.
+std::string roll_forces(const CrossSectionForces& forces,
+                        const std::array<ContactMode, 3>* modes) {
+  Table table(
+      modes ? std::vector<std::string>{"contact", "normal N", "tangential N", "mode"}
+            : std::vector<std::string>{"contact", "normal N", "tangential N"});
+  for (int i = 0; i < 3; ++i) {
+    std::vector<std::string> row = {kContactNames[i], text("%.4f", forces.normal[i]),
+                                    text("%.4f", forces.tangential[i])};
+    if (modes) row.emplace_back(name((*modes)[i]));
+    table.add(std::move(row));
+  }
+  return table.str();
 }
 
 nlohmann::ordered_json points_json(const InstantReport& report) {
@@ -105,7 +142,7 @@ const char* meaning(InstantStatus status) {
 std::string describe(const InstantReport& report) {
   const PlanarInstant& now = report.instant;
   std::string out = report.question + '\n';
-  out += std::string(name(now.status)) + ": " + meaning(now.status) + '\n';
+  out += std::string(name(now.status)) + ": " + meaning_of(report) + '\n';
   if (usable(now.status)) {
     out += text(
         "push force %.6g N: (%.4f, %.4f) N on the object, moment %.4f N mm about the "
@@ -145,7 +182,7 @@ nlohmann::ordered_json to_json(const InstantReport& report) {
   return {{"question", report.question},
           {"solver", report.solver},
           {"status", std::string(name(now.status))},
-          {"meaning", meaning(now.status)},
+          {"meaning", meaning_of(report)},
           {"push_force", number(now.push_force)},
           {"push_wrench", numbers(now.w_push)},
           {"object_twist", numbers(now.V_HO)},
@@ -160,30 +197,31 @@ nlohmann::ordered_json to_json(const InstantReport& report) {
 
 std::string describe(const RollReport& report) {
   const CrossSectionInstant& now = report.instant;
+  const bool ambiguous = now.status == InstantStatus::kAmbiguous;
   std::string out = report.question + '\n';
   out += std::string(name(now.status)) + ": " + meaning(now.status) + '\n';
-  if (usable(now.status)) {
-    out += text(
-        "roll rate %.4f deg/s, object %.4f mm/s along the closing direction, support "
-        "force %.4f N\n",
-        to_deg(now.roll_rate), to_mm(now.v_z), now.push_force);
-    out += text("normal force of the support in [%.6f, %.6f] N\n", now.sheet_force_low,
-                now.sheet_force_high);
-    Table table({"contact", "normal N", "tangential N", "mode"});
-    for (int i = 0; i < 3; ++i) {
-      table.add({kContactNames[i], text("%.4f", now.normal_force[i]),
-                 text("%.4f", now.tangential_force[i]), std::string(name(now.mode[i]))});
-    }
-    out += table.str();
+  if (usable(now.status) || ambiguous) {
+    out += roll_motion(ambiguous ? "one motion" : "motion", now.motion());
+    out += text("force of the support %.4f N, its normal part in [%.6f, %.6f] N\n",
+                now.push_force, now.sheet_force_low, now.sheet_force_high);
+    out += roll_forces(now.forces(), &now.mode);
   }
-  if (std::isfinite(now.other.roll_rate)) {
-    out += text("other motion: roll rate %.4f deg/s\n", to_deg(now.other.roll_rate));
+  if (ambiguous) {
+    out += roll_motion("another motion", now.other);
+    out += roll_forces(now.other_forces, nullptr);
+  }
+  if (now.status == InstantStatus::kDynamic) out += roll_motion("evidence", now.evidence);
+  if (now.status == InstantStatus::kJammed) {
+    out += "forces that balance by themselves:\n";
+    out += roll_forces(now.evidence_forces, nullptr);
   }
   if (std::isfinite(report.threshold)) {
     out += text("rolls from a support friction of %.4f on\n", report.threshold);
   }
-  return out + text("%d distinct motions over all mode combinations; residual %.1e\n",
-                    now.motions_found, report.residual);
+  return out + text(
+                   "%d distinct motions over all mode combinations; residual of all laws "
+                   "%.1e, derived separately\n",
+                   now.motions_found, report.residual);
 }
 
 nlohmann::ordered_json to_json(const RollReport& report) {

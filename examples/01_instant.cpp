@@ -1,6 +1,7 @@
 /// What happens at this instant? A line pusher against a box in the jaws: the least force
 /// that breaks the grasp, and how the box then moves.
 #include <cstdio>
+#include <exception>
 #include <string>
 
 #include "mechanics/certificate.h"
@@ -24,12 +25,8 @@ Scene box_in_jaws() {
 
 }  // namespace
 
-int main() {
-  const Scene scene = box_in_jaws();
-  for (const Fault& fault : check(scene)) {
-    std::fprintf(stderr, "%s: %s\n", fault.field.c_str(), fault.what.c_str());
-  }
-  const Model model = prepare(scene);  // throws on a faulty scene: the cold path
+int main() try {
+  const Model model = prepare(box_in_jaws());  // throws BadScene, which names every fault
 
   const PlanarPose X_HO{};  // the box is centred in the hand
   const PushContact& contact = model.contacts.front();
@@ -50,4 +47,7 @@ int main() {
   const Certificate certificate = certify(grasp, drive, now);  // not by the solver
   std::printf("certificate %s\n", certificate.holds() ? "holds" : "fails");
   return certificate.holds() ? 0 : 1;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 2;
 }

@@ -1,6 +1,7 @@
 /// One push, start to end: a point pusher off the middle of a box turns it, slips, and
 /// the transition says when, why and with what force.
 #include <cstdio>
+#include <exception>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,7 @@
 
 using namespace prehensile;
 
-int main() {
+int main() try {
   Scene scene;
   scene.object.shape = BoxShape{{0.10, 0.06, 0.03}};
   scene.object.mass = 0.2;
@@ -34,4 +35,7 @@ int main() {
   std::printf("force %.2f N at the start, %.2f N at the end\n",
               samples.front().push_force, samples.back().push_force);
   return transition.completed() ? 0 : 1;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 2;
 }

@@ -97,7 +97,7 @@ const Value* FieldReader::choose(const std::vector<const char*>& keys) {
     }
   }
   const std::string expected = ": expected exactly one of " + listed(keys);
-  if (present.empty()) {
+  if (chosen == nullptr) {
     missing_.push_back({{keys.begin(), keys.end()}, path_, "missing" + expected});
   } else if (present.size() > 1) {
     faults_.add(chosen->place, path_, listed(present) + expected);

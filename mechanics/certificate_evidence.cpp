@@ -40,11 +40,11 @@ bool clearly_held(const PlanarGrasp& grasp, const CertificateUnits& units) {
   return square > 0.0 && force_share + std::abs(w[2]) * reach / square < 1.0;
 }
 
-/// Forces that a given twist leaves open, driven as close to balance as they go:
-/// multiples
-/// >= 0 of at most four edges of the pusher's cones, and a finger point at rest that
-/// takes any force within its bound. The best multiples use linearly independent edges,
-/// so all small subsets of edges are tried; each is a linear least-squares problem.
+/// Forces that a given twist leaves open, driven as close to balance as they go: a finger
+/// point at rest takes any force within its bound, and the pusher's cones give multiples,
+/// none negative, of at most four edges. The best multiples use linearly independent
+/// edges, so all small subsets of edges are tried; each is a linear least-squares
+/// problem.
 class Balance {
  public:
   explicit Balance(const Vec3& rest) : rest_(rest) {}

@@ -131,6 +131,7 @@ LinearLaws linear_laws(const PolyhedralInstant& q, const PlanarTwist& u,
 PolyhedralAnswer polished(const PolyhedralInstant& q, std::span<const double> values) {
   const PolyhedralUnknowns z(q);
   std::vector<ContactForce> contacts;
+  contacts.reserve(z.points + z.pushers);
   for (int j = 0; j < z.points; ++j) contacts.push_back(finger_pattern(q, z, values, j));
   for (int i = 0; i < z.pushers; ++i) contacts.push_back(pusher_pattern(q, z, values, i));
   int count = 3;

@@ -32,12 +32,17 @@ std::string sentence(Proof::Kind kind) {
 
 Proof make_proof(Proof::Kind kind) { return {.kind = kind, .text = sentence(kind)}; }
 
-/// The twist with which gravity gains most over friction at a pose.
+/// The twist with which gravity gains most over friction at a pose; without friction the
+/// fall itself.
 Proof falling_proof(const Model& model, Proof::Kind kind, const PlanarPose& X_HO,
                     const Vec2& g_O) {
   Proof proof = make_proof(kind);
   const PlanarGrasp grasp = grasp_at(model, X_HO, g_O);
-  if (grasp.count > 0) gravity_slack(grasp, &proof.twist);
+  if (grasp.count > 0) {
+    gravity_slack(grasp, &proof.twist);
+  } else if (!grasp.w_g.isZero()) {
+    proof.twist << grasp.w_g.head<2>().normalized(), 0.0;
+  }
   return proof;
 }
 

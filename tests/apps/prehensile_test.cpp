@@ -1,4 +1,5 @@
 /// The command line as its users meet it: output, exit codes, files.
+#include <filesystem>
 #include <regex>
 #include <string>
 
@@ -10,6 +11,7 @@
 namespace prehensile::testing {
 namespace {
 
+namespace fs = std::filesystem;
 using nlohmann::json;
 
 const std::string kScene = "problems/published/tee_21.yaml";
@@ -24,6 +26,39 @@ TEST(Program, PlansWritesAndChecks) {
   const Outcome checked = run_program("check " + plan);
   EXPECT_EQ(checked.exit_code, 0) << checked.out;
   EXPECT_NE(checked.out.find("the plan holds"), std::string::npos);
+}
+
+TEST(Program, EveryShippedProblemIsPlannedAndChecked) {
+  const Folder folder;
+  const std::string plan = folder.path("plan.json").string();
+  const fs::path problems = fs::path(PREHENSILE_SOURCE_DIR) / "problems";
+  int problems_found = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(problems)) {
+    if (entry.path().extension() != ".yaml") continue;
+    ++problems_found;
+    const std::string scene = entry.path().string();
+    const Outcome planned = run_program("plan " + scene + " -o " + plan);
+    ASSERT_EQ(planned.exit_code, 0) << scene << planned.out << planned.err;
+    const Outcome checked = run_program("check " + plan);
+    EXPECT_EQ(checked.exit_code, 0) << scene << checked.out << checked.err;
+  }
+  EXPECT_GE(problems_found, 110);
+}
+
+TEST(Program, ReferenceSaysWhyTheCircularCertificateRejectsIt) {
+  const Outcome instant = run_program(
+      "query instant problems/paper/pivot.yaml --solver ipopt --turn-deg-s 40");
+  if (instant.exit_code != 0) GTEST_SKIP() << instant.out;
+  EXPECT_NE(instant.out.find("polyhedra inside the circular ones"), std::string::npos)
+      << instant.out;
+}
+
+TEST(Program, RollShowsBothMotionsWhereThereAreTwo) {
+  const Outcome roll = run_program("query instant --roll problems/paper/roll.yaml");
+  EXPECT_EQ(roll.exit_code, 1);
+  for (const char* word : {"ambiguous", "one motion", "another motion", "support"}) {
+    EXPECT_NE(roll.out.find(word), std::string::npos) << roll.out;
+  }
 }
 
 TEST(Program, AnEditedPlanFailsTheCheck) {

@@ -62,6 +62,19 @@ TEST(Proofs, StartFalls) {
   EXPECT_FALSE(verify(model, tampered));
 }
 
+TEST(Proofs, WithoutGripOrFrictionTheStartFalls) {
+  for (const bool grip : {true, false}) {
+    Scene scene = walled_square();
+    if (grip) {
+      scene.gripper.friction = {0.0, 0.0};
+    } else {
+      scene.gripper.grip_force = 0.0;
+    }
+    scene.goal = goal_at({0.0, 0.0}, 0.0);
+    expect_refusal(scene, Proof::Kind::kStartFalls);
+  }
+}
+
 TEST(Proofs, GoalFalls) {
   Scene scene = walled_square();
   scene.gripper.grip_force = 8.0;

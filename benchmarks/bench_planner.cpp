@@ -5,9 +5,7 @@
 /// budget, once per problem: it draws no random numbers. OMPL's run with a time limit,
 /// once per seed. `search_s` is the search alone, `total_s` all of plan_regrasp: proofs,
 /// search, polish, exact check, bound. A run counts as solved if its plan replays.
-/// Usage: bench_planner [--quick] [--set NAME] [--planner NAME] [--problems N] [--seeds
-/// N]
-///                      [--time-ms N] [-o FILE]
+/// `--help` shows the options.
 #include <cstdio>
 #include <cstdlib>
 #include <string>

@@ -76,7 +76,7 @@ double PadFriction::dissipation(const PlanarTwist& u) const noexcept {
 
 PlanarWrench PadFriction::resistance(const PlanarTwist& u,
                                      const Pivot& pivot) const noexcept {
-  PlanarWrench smooth = resisting_wrench(points(), u);
+  const PlanarWrench smooth = resisting_wrench(points(), u);
   if (pivot.index < 0) return smooth;
   return smooth + wrench_of(at(pivot.index), pivot.force);
 }

@@ -33,7 +33,7 @@ PlanarTwist turning_about(const PolyhedralInstant& q, int i) {
 PlanarTwist guessed_twist(const PolyhedralInstant& q) {
   if (q.pushers == 1) return turning_about(q, 0);
   for (int i = 0; i < 2; ++i) {
-    PlanarTwist u = turning_about(q, i);
+    const PlanarTwist u = turning_about(q, i);
     if (q.pusher_rate(1 - i, u).x() > 0.0) return u;
   }
   return q.V_HP;

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Format and lint: clang-format on every source, clang-tidy with the profile in .clang-tidy on the
-# folders named below.
+# Format and lint: clang-format on every source, clang-tidy with the profile in .clang-tidy on every
+# unit.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -10,7 +10,7 @@ clang-format --dry-run --Werror "${sources[@]}"
 echo "clang-format: ${#sources[@]} files clean"
 
 cmake --preset release >/dev/null
-mapfile -t units < <(git ls-files scene/'*.cpp' optimisation/'*.cpp' primitives/'*.cpp' apps/'*.cpp')
+mapfile -t units < <(git ls-files '*.cpp' ':!planner/absent' ':!optimisation/*_absent.cpp')
 printf '%s\0' "${units[@]}" |
   xargs -0 -n 1 -P "$(nproc)" clang-tidy --quiet --warnings-as-errors='*' -p build/release \
     2> >(grep -v -E 'warnings? generated|Suppressed|Use -header-filter' >&2)

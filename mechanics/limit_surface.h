@@ -29,7 +29,7 @@ struct LimitSurface {
 
 /// The instant over a limit surface, point or line pusher, gravity w_g about the origin
 /// of H. Quasi-static. finger_count of the answer is 0; the status is never out of
-/// iterations. No heap. About 50 ns for a point pusher.
+/// iterations. No heap. A fraction of a microsecond (docs/benchmarks.md).
 PlanarInstant solve_limit_surface(const LimitSurface& surface, const PlanarWrench& w_g,
                                   const PlanarDrive& drive) noexcept;
 

@@ -7,6 +7,8 @@
 
 #include <array>
 
+#include <Eigen/Geometry>
+
 #include "scene/frames.h"
 #include "scene/scene.h"
 

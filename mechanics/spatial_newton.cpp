@@ -1,0 +1,213 @@
+#include "mechanics/spatial_newton.h"
+
+#include <algorithm>
+
+namespace prehensile {
+namespace {
+
+constexpr int kStepsPerCentre = 25;
+constexpr int kHalvings = 12;
+
+using Matrix8 = Eigen::Matrix<double, 8, 8>;
+
+/// Solves the leading n x n system in place by elimination with row exchange; false where
+/// it is singular.
+bool solve_small(Matrix8& A, SpatialRates& x, int n) {
+  for (int k = 0; k < n; ++k) {
+    int best = k;
+    for (int i = k + 1; i < n; ++i) {
+      if (std::abs(A(i, k)) > std::abs(A(best, k))) best = i;
+    }
+    if (!(std::abs(A(best, k)) > 0.0)) return false;
+    if (best != k) {
+      A.row(k).swap(A.row(best));
+      std::swap(x[k], x[best]);
+    }
+    const double per_pivot = 1.0 / A(k, k);
+    for (int i = k + 1; i < n; ++i) {
+      const double factor = A(i, k) * per_pivot;
+      for (int j = k + 1; j < n; ++j) A(i, j) -= factor * A(k, j);
+      x[i] -= factor * x[k];
+    }
+  }
+  for (int k = n - 1; k >= 0; --k) {
+    for (int j = k + 1; j < n; ++j) x[k] -= A(k, j) * x[j];
+    x[k] /= A(k, k);
+  }
+  return x.allFinite();
+}
+
+class Iteration {
+ public:
+  Iteration(const ScaledSpatial& problem, SpatialForces& forces)
+      : problem_(problem), force_(forces) {}
+
+  void start_at(const NewtonStart& start) {
+    v_ = before_ = start.v;
+    for (int j = 0; j < problem_.padded; ++j) {
+      centre_.n[j] = start.forces != nullptr ? start.forces->n[j] : problem_.preload[j];
+      centre_.t[j] = start.forces != nullptr ? start.forces->t[j] : 0.0;
+      centre_.o[j] = start.forces != nullptr ? start.forces->o[j] : 0.0;
+      centre_.s[j] = start.forces != nullptr ? start.forces->s[j] : 0.0;
+      force_.s[j] = 0.0;
+    }
+    close_padding();
+  }
+
+  void set_prox(double r, double e) {
+    r_ = r;
+    e_ = e;
+    evaluate(v_);
+  }
+
+  /// Newton's method for the present force centres.
+  bool settle(double tolerance, int& steps, int max_steps) {
+    const int n = problem_.freedoms;
+    for (int step = 0; step < kStepsPerCentre && steps < max_steps; ++step, ++steps) {
+      if (balance_.norm() <= tolerance) return true;
+      SpatialRates stride = -balance_;
+      if (!solve_small(jacobian_, stride, n)) return false;
+      if (!line_search(stride)) return balance_.norm() <= 10.0 * tolerance;
+    }
+    return balance_.norm() <= tolerance;
+  }
+
+  void move_centres() {
+    const auto copy = [this](const ScaledSpatial::Column& from,
+                             ScaledSpatial::Column& to) {
+      std::copy_n(from.begin(), problem_.padded, to.begin());
+    };
+    copy(force_.n, centre_.n);
+    copy(force_.t, centre_.t);
+    copy(force_.o, centre_.o);
+    copy(force_.s, centre_.s);
+    close_padding();
+    before_ = v_;
+  }
+
+  double natural_map() const {
+    double worst = (balance_ - e_ * (v_ - before_)).norm();
+    for (int k = 0; k < problem_.patch_count; ++k) {
+      const ScaledPatch& patch = problem_.patch[k];
+      const LocalRates y = patch.T * v_ - patch.prescribed;
+      worst = std::max(worst,
+                       spatial_kernels::distance_from_laws(problem_, patch, y, force_));
+    }
+    return worst;
+  }
+
+  double largest_force() const {
+    double most = 0.0;
+    for (int j = 0; j < problem_.padded; ++j) most = std::max(most, force_.n[j]);
+    return most;
+  }
+
+  const SpatialRates& v() const { return v_; }
+
+ private:
+  /// Padding never touches.
+  void close_padding() {
+    for (int k = 0; k < problem_.patch_count; ++k) {
+      const ScaledPatch& patch = problem_.patch[k];
+      for (int j = patch.count; j < patch.padded; ++j) centre_.n[patch.first + j] = -1e30;
+    }
+  }
+
+  PatchSums project(const ScaledPatch& patch, const LocalRates& y) {
+    using spatial_kernels::project;
+    if (patch.soft) {
+      return patch.given ? project<true, true>(problem_, patch, y, centre_, r_, force_)
+                         : project<true, false>(problem_, patch, y, centre_, r_, force_);
+    }
+    return patch.given ? project<false, true>(problem_, patch, y, centre_, r_, force_)
+                       : project<false, false>(problem_, patch, y, centre_, r_, force_);
+  }
+
+  void evaluate(const SpatialRates& v) {
+    balance_ = e_ * (v - before_) - problem_.f;
+    jacobian_.setZero();
+    jacobian_.diagonal().setConstant(e_);
+    if (problem_.has_inertia) {
+      balance_ += problem_.M * v;
+      jacobian_ += problem_.M;
+    }
+    for (int k = 0; k < problem_.patch_count; ++k) {
+      const ScaledPatch& patch = problem_.patch[k];
+      const LocalRates y = patch.T * v - patch.prescribed;
+      const PatchSums sums = project(patch, y);
+      balance_.noalias() -= patch.T.transpose() * sums.wrench;
+      const auto normal = patch.T.topRows<3>();
+      const auto tangential = patch.T.bottomRows<3>();
+      const Eigen::Matrix<double, 3, 8> by_normal = sums.K_nn * normal;
+      const Eigen::Matrix<double, 3, 8> by_friction =
+          sums.K_tt * tangential + sums.K_tn * normal;
+      jacobian_.noalias() += normal.transpose() * by_normal;
+      jacobian_.noalias() += tangential.transpose() * by_friction;
+    }
+    for (int i = problem_.freedoms; i < 8; ++i) balance_[i] = 0.0;
+  }
+
+  bool line_search(const SpatialRates& stride) {
+    const SpatialRates from = v_;
+    const double before = balance_.norm();
+    double share = 1.0;
+    for (int halving = 0; halving < kHalvings; ++halving, share *= 0.5) {
+      const SpatialRates there = from + share * stride;
+      evaluate(there);
+      if (balance_.norm() <= (1.0 - 1e-4 * share) * before) {
+        v_ = there;
+        return true;
+      }
+    }
+    evaluate(from);
+    return false;
+  }
+
+  const ScaledSpatial& problem_;
+  double r_ = 1.0;
+  double e_ = 0.0;
+  SpatialRates v_ = SpatialRates::Zero();
+  SpatialRates before_ = SpatialRates::Zero();
+  SpatialRates balance_ = SpatialRates::Zero();
+  Matrix8 jacobian_ = Matrix8::Zero();
+  SpatialForces centre_;
+  SpatialForces& force_;
+};
+
+}  // namespace
+
+NewtonResult run_newton(const ScaledSpatial& problem, const NewtonStart& start,
+                        double tolerance, int max_steps, SpatialForces& forces,
+                        int& steps) noexcept {
+  Iteration iteration(problem, forces);
+  iteration.start_at(start);
+  double r = start.r * start.pace;
+  double e = start.e;
+  NewtonResult result;
+  double residual = std::numeric_limits<double>::infinity();
+  while (true) {
+    iteration.set_prox(r, e);
+    const double wanted =
+        std::max(0.1 * tolerance, std::min(1e-3, 0.1 * residual * residual));
+    const bool settled = iteration.settle(wanted, steps, max_steps);
+    const double now = iteration.natural_map();
+    if (std::isfinite(now)) residual = now;
+    if (residual <= tolerance || steps >= max_steps) break;
+    if (settled) {
+      iteration.move_centres();
+      r = std::max(1e-4 * start.pace, 0.3 * r);
+      e *= 0.2;
+    } else {
+      e = std::max(10.0 * e, 0.1 / start.pace);
+      r = std::min(3.0 * start.pace, 2.0 * r);
+    }
+    ++steps;
+  }
+  result.v = iteration.v();
+  result.residual = residual;
+  result.largest_force = iteration.largest_force();
+  result.converged = residual <= tolerance;
+  return result;
+}
+
+}  // namespace prehensile

@@ -22,6 +22,13 @@ namespace prehensile {
 /// `jaw_freedoms` (unused ones are zero).
 using SpatialRates = Eigen::Matrix<double, 8, 1>;
 
+/// Force of a contact point on the object. Not initialised.
+struct SpatialForce {
+  double normal;    ///< [N], >= 0
+  Vec2 tangential;  ///< [N] along (t, o)
+  double spin;      ///< [N m] about n
+};
+
 /// One contact point: force on the object, and rate of the object relative to jaw or
 /// pusher, both along (n, t, o) of its patch. Not initialised.
 struct SpatialPoint {
@@ -43,16 +50,22 @@ struct SpatialInstant {
       SpatialWrench::Constant(kNan);  ///< pusher on object, about the origin of H
   double push_force = kNan;           ///< |f| of w_push [N]
 
-  /// In the order of the problem's points; [0, count) are set. kJammed: the forces are a
-  /// self-balanced set of unit size (the largest normal force is 1 N), rates are NaN.
+  /// In the order of the problem's points; [0, count) are set. kDynamic: forces and rates
+  /// of the fall `evidence`. kJammed: a self-balanced set of forces, the largest normal
+  /// force being 1 N; rates mean nothing.
   int count = 0;
   std::array<SpatialPoint, SpatialProblem::kMaxPoints> point;
 
   double residual = kNan;  ///< natural-map residual of the solver in units (F0, V0)
   int iterations = 0;      ///< Newton steps
 
-  SpatialRates evidence = SpatialRates::Constant(kNan);  ///< see kDynamic, kAmbiguous
-  SpatialRates other = SpatialRates::Constant(kNan);     ///< see kAmbiguous, if found
+  /// kDynamic: a motion in which every contact obeys its law but gravity (and the drive
+  /// of the jaws) gains more power than pads and pusher take. kAmbiguous: the same with
+  /// the pads alone, so that only the pusher keeps the object from falling.
+  SpatialRates evidence = SpatialRates::Constant(kNan);
+  /// kAmbiguous: a second motion, if found, with its forces.
+  SpatialRates other = SpatialRates::Constant(kNan);
+  std::array<SpatialForce, SpatialProblem::kMaxPoints> other_force;
   double force_low = kNan;   ///< see kNonuniqueForces: least and
   double force_high = kNan;  ///< greatest sum of the pusher's normal forces that this
                              ///< motion allows [N], as far as known

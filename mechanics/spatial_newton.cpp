@@ -7,6 +7,7 @@ namespace {
 
 constexpr int kStepsPerCentre = 25;
 constexpr int kHalvings = 12;
+constexpr double kRunsAway = 1e7;  ///< rates that only a falling object reaches
 
 using Matrix8 = Eigen::Matrix<double, 8, 8>;
 
@@ -43,6 +44,8 @@ class Iteration {
       : problem_(problem), force_(forces) {}
 
   void start_at(const NewtonStart& start) {
+    pads_only_ = start.pads_only;
+    added_mass_ = start.added_mass;
     v_ = before_ = start.v;
     for (int j = 0; j < problem_.padded; ++j) {
       centre_.n[j] = start.forces != nullptr ? start.forces->n[j] : problem_.preload[j];
@@ -89,6 +92,7 @@ class Iteration {
     double worst = (balance_ - e_ * (v_ - before_)).norm();
     for (int k = 0; k < problem_.patch_count; ++k) {
       const ScaledPatch& patch = problem_.patch[k];
+      if (is_left_out(patch)) continue;
       const LocalRates y = patch.T * v_ - patch.prescribed;
       worst = std::max(worst,
                        spatial_kernels::distance_from_laws(problem_, patch, y, force_));
@@ -98,13 +102,23 @@ class Iteration {
 
   double largest_force() const {
     double most = 0.0;
-    for (int j = 0; j < problem_.padded; ++j) most = std::max(most, force_.n[j]);
+    for (int k = 0; k < problem_.patch_count; ++k) {
+      const ScaledPatch& patch = problem_.patch[k];
+      if (is_left_out(patch)) continue;
+      for (int j = 0; j < patch.count; ++j) {
+        most = std::max(most, force_.n[patch.first + j]);
+      }
+    }
     return most;
   }
 
   const SpatialRates& v() const { return v_; }
 
  private:
+  bool is_left_out(const ScaledPatch& patch) const {
+    return pads_only_ && patch.body == ContactBody::kPusher;
+  }
+
   /// Padding never touches.
   void close_padding() {
     for (int k = 0; k < problem_.patch_count; ++k) {
@@ -126,13 +140,15 @@ class Iteration {
   void evaluate(const SpatialRates& v) {
     balance_ = e_ * (v - before_) - problem_.f;
     jacobian_.setZero();
-    jacobian_.diagonal().setConstant(e_);
+    jacobian_.diagonal().setConstant(e_ + added_mass_);
+    if (added_mass_ > 0.0) balance_ += added_mass_ * v;
     if (problem_.has_inertia) {
       balance_ += problem_.M * v;
       jacobian_ += problem_.M;
     }
     for (int k = 0; k < problem_.patch_count; ++k) {
       const ScaledPatch& patch = problem_.patch[k];
+      if (is_left_out(patch)) continue;
       const LocalRates y = patch.T * v - patch.prescribed;
       const PatchSums sums = project(patch, y);
       balance_.noalias() -= patch.T.transpose() * sums.wrench;
@@ -164,6 +180,8 @@ class Iteration {
   }
 
   const ScaledSpatial& problem_;
+  bool pads_only_ = false;
+  double added_mass_ = 0.0;
   double r_ = 1.0;
   double e_ = 0.0;
   SpatialRates v_ = SpatialRates::Zero();
@@ -184,6 +202,7 @@ NewtonResult run_newton(const ScaledSpatial& problem, const NewtonStart& start,
   double r = start.r * start.pace;
   double e = start.e;
   NewtonResult result;
+  const bool has_mass = problem.has_inertia || start.added_mass > 0.0;
   double residual = std::numeric_limits<double>::infinity();
   while (true) {
     iteration.set_prox(r, e);
@@ -193,6 +212,10 @@ NewtonResult run_newton(const ScaledSpatial& problem, const NewtonStart& start,
     const double now = iteration.natural_map();
     if (std::isfinite(now)) residual = now;
     if (residual <= tolerance || steps >= max_steps) break;
+    if (!has_mass && !(iteration.v().norm() < kRunsAway)) {
+      result.runs_away = true;
+      break;
+    }
     if (settled) {
       iteration.move_centres();
       r = std::max(1e-4 * start.pace, 0.3 * r);

@@ -1,0 +1,229 @@
+#include "mechanics/spatial_search.h"
+
+#include <algorithm>
+
+namespace prehensile {
+namespace {
+
+constexpr int kFirstBudget = 150;
+constexpr int kBudget = 200;
+constexpr double kStiff = 1e-4;     ///< compliance below which continuation comes first
+constexpr double kHeldRate = 10.0;  ///< rates of a held object, as foundations yield
+constexpr double kFallingMass = 1e-4;
+constexpr double kOtherMotion = 1e-5;
+constexpr double kJamForce = 1e3;     ///< forces that call for a second look
+constexpr double kJamBalance = 1e-7;  ///< imbalance of unit forces that counts as none
+
+double least_compliance(const ScaledSpatial& problem) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < problem.patch_count; ++k) {
+    if (problem.patch[k].R > 0.0) least = std::min(least, problem.patch[k].R);
+  }
+  return least;
+}
+
+/// All foundations at least this soft.
+void soften(const ScaledSpatial& problem, double R, ScaledSpatial& softer) {
+  for (int k = 0; k < problem.patch_count; ++k) {
+    const double own = problem.patch[k].R;
+    softer.patch[k].R = own > 0.0 ? std::max(own, R) : 0.0;
+  }
+}
+
+/// Rates that the pusher would give the object if they moved as one body.
+SpatialRates rates_of_pusher(const ScaledSpatial& problem) {
+  for (int k = 0; k < problem.patch_count; ++k) {
+    const ScaledPatch& patch = problem.patch[k];
+    if (patch.body != ContactBody::kPusher) continue;
+    // Rows of T are orthogonal once the lever of the patch's origin is taken out.
+    const auto& T = patch.T;
+    SpatialRates v = SpatialRates::Zero();
+    const LocalRates& y = patch.prescribed;
+    const Vec3 w = y[1] * patch.t + y[2] * patch.o + y[5] * patch.n;
+    Vec3 at_centre;
+    at_centre[0] = y[0] - T.row(0).segment<3>(3).dot(w);
+    at_centre[1] = y[3] - T.row(3).segment<3>(3).dot(w);
+    at_centre[2] = y[4] - T.row(4).segment<3>(3).dot(w);
+    v.head<3>() =
+        at_centre[0] * patch.n + at_centre[1] * patch.t + at_centre[2] * patch.o;
+    v.segment<3>(3) = w;
+    return v;
+  }
+  return SpatialRates::Zero();
+}
+
+}  // namespace
+
+bool SpatialSearch::attempt(const NewtonStart& start, int budget) {
+  const int last = std::min(max_steps_, steps_ + budget);
+  if (steps_ >= last) return false;
+  result_ = run_newton(problem_, start, tolerance_, last, forces_, steps_);
+  return result_.converged;
+}
+
+bool SpatialSearch::solve_directly(const NewtonStart* warm) {
+  if (warm != nullptr && attempt(*warm, 40)) return true;
+  if (least_compliance(problem_) < kStiff) return approach_compliance();
+  return attempt({}, kFirstBudget);
+}
+
+bool SpatialSearch::solve_stubbornly() {
+  const SpatialRates along = rates_of_pusher(problem_);
+  if (attempt({.v = along, .r = 0.3}, kBudget)) return true;
+  if (attempt({.e = 1.0, .pace = 10.0}, kBudget)) return true;
+  if (attempt({.e = 0.1, .pace = 0.1}, kBudget)) return true;
+  if (approach_friction()) return true;
+  if (approach_compliance()) return true;
+  return attempt({.v = along, .r = 30.0, .e = 1.0}, 2 * kBudget);
+}
+
+bool SpatialSearch::approach_friction() {
+  double most = 0.0;
+  for (int k = 0; k < problem_.patch_count; ++k) {
+    most = std::max(most, problem_.patch[k].mu);
+  }
+  ScaledSpatial easier = problem_;
+  SpatialForces known;
+  NewtonStart start;
+  double level = std::min(0.3, 0.3 * most);
+  double known_level = 0.0;
+  double factor = 1.5;
+  for (int trial = 0; trial < 40; ++trial) {
+    const bool last = level >= most;
+    for (int k = 0; k < problem_.patch_count; ++k) {
+      easier.patch[k].mu = std::min(problem_.patch[k].mu, level);
+    }
+    const int until = std::min(max_steps_, steps_ + 100);
+    if (steps_ >= until) return false;
+    result_ = run_newton(easier, start, last ? tolerance_ : 1e-5, until, forces_, steps_);
+    if (result_.converged) {
+      if (last) return true;
+      known = forces_;
+      known_level = level;
+      start = {.v = result_.v, .forces = &known, .r = 0.03};
+      factor = std::min(1.5, factor * factor);
+    } else {
+      if (known_level == 0.0) return false;
+      factor = std::sqrt(factor);
+      if (factor < 1.001) return false;
+    }
+    level = std::min(most, known_level * factor);
+  }
+  return false;
+}
+
+bool SpatialSearch::approach_compliance() {
+  const double target = least_compliance(problem_);
+  if (!std::isfinite(target)) return false;
+  ScaledSpatial softer = problem_;
+  SpatialForces known;
+  NewtonStart start;
+  double known_R = 0.0;
+  double R = std::max(1e-2, target);
+  double factor = 0.1;
+  for (int trial = 0; trial < 40; ++trial) {
+    const bool last = R <= target;
+    soften(problem_, R, softer);
+    const int until = std::min(max_steps_, steps_ + (known_R > 0.0 ? 80 : kBudget));
+    if (steps_ >= until) return false;
+    result_ = run_newton(softer, start, last ? tolerance_ : 1e-6, until, forces_, steps_);
+    if (result_.converged) {
+      if (last) return true;
+      known = forces_;
+      known_R = R;
+      start = {.v = result_.v, .forces = &known, .r = 0.03};
+      factor = std::max(0.1, factor * factor);
+    } else {
+      if (known_R == 0.0) return false;
+      factor = std::sqrt(factor);
+      if (factor > 0.98) return false;
+    }
+    R = std::max(target, known_R * factor);
+  }
+  return false;
+}
+
+SpatialSearch::Hold SpatialSearch::judge_hold() {
+  SpatialForces forces;
+  int steps = 0;
+  const NewtonResult rest =
+      run_newton(problem_, {.pads_only = true}, 1e-8, kFirstBudget, forces, steps);
+  if (rest.converged) return rest.v.norm() <= kHeldRate ? Hold::kHeld : Hold::kFalls;
+  return rest.runs_away ? Hold::kFalls : Hold::kUnknown;
+}
+
+bool SpatialSearch::find_fall(bool pads_only, SpatialForces& forces,
+                              SpatialRates& rates) {
+  for (const double mass : {kFallingMass, 1e-2, 1e-6}) {
+    for (const double pace : {1.0, 10.0, 0.1}) {
+      int steps = 0;
+      const NewtonResult fall =
+          run_newton(problem_, {.pace = pace, .pads_only = pads_only, .added_mass = mass},
+                     tolerance_, kBudget, forces, steps);
+      steps_ += steps;
+      if (!fall.converged) continue;
+      rates = fall.v;
+      // Far beyond what the pusher or a foundation could cause.
+      if (fall.v.norm() > 100.0) return true;
+      break;
+    }
+  }
+  return false;
+}
+
+bool SpatialSearch::find_other(SpatialForces& forces, SpatialRates& rates) {
+  const SpatialRates along = rates_of_pusher(problem_);
+  for (int trial = 0; trial < 8; ++trial) {
+    SpatialRates v = trial == 0 ? along : SpatialRates(SpatialRates::Zero());
+    for (int i = 0; i < problem_.freedoms && trial > 0; ++i) {
+      const double share = std::fmod(0.6180339887498949 * (8 * trial + i + 1), 1.0);
+      v[i] = 6.0 * (share - 0.5);
+    }
+    int steps = 0;
+    const NewtonResult other =
+        run_newton(problem_, {.v = v, .r = trial % 2 == 0 ? 0.1 : 3.0, .e = 0.1},
+                   tolerance_, kBudget, forces, steps);
+    steps_ += steps;
+    if (!other.converged) continue;
+    const double apart = (other.v - result_.v).norm();
+    if (apart > kOtherMotion * (1.0 + result_.v.norm())) {
+      rates = other.v;
+      return true;
+    }
+  }
+  return false;
+}
+
+bool SpatialSearch::find_jam(SpatialForces& forces) {
+  ScaledSpatial stiffer = problem_;
+  SpatialForces known = forces_;
+  NewtonStart start = {.v = result_.v, .forces = &known, .r = 0.03};
+  double before = result_.largest_force;
+  for (int trial = 0; trial < 12; ++trial) {
+    for (int k = 0; k < problem_.patch_count; ++k) stiffer.patch[k].R *= 0.1;
+    // The jam's forces at the next compliance, should there be one.
+    for (int j = 0; j < problem_.padded; ++j) {
+      for (double* f : {&known.n[j], &known.t[j], &known.o[j], &known.s[j]}) *f *= 10.0;
+    }
+    int steps = 0;
+    const double size = 10.0 * before;
+    const NewtonResult next =
+        run_newton(stiffer, start, tolerance_ * size, kBudget, forces, steps);
+    steps_ += steps;
+    if (!next.converged || !(next.largest_force > 5.0 * before)) return false;
+    before = next.largest_force;
+    if (1.0 / before < kJamBalance) {
+      for (int j = 0; j < problem_.padded; ++j) {
+        for (double* f : {&forces.n[j], &forces.t[j], &forces.o[j], &forces.s[j]}) {
+          *f /= before;
+        }
+      }
+      return true;
+    }
+    known = forces;
+    start.v = next.v;
+  }
+  return false;
+}
+
+}  // namespace prehensile

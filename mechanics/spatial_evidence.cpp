@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kFails = 1.0;    ///< the claim is false
 constexpr double kGains = 1e-9;   ///< least gain of power that counts, relative
+constexpr double kFalls = 3.0;    ///< a fall is faster than this many unit rates
 constexpr double kYields = 10.0;  ///< foundations may yield to this many unit forces
 
 bool is_pad(const ContactPatch& patch) { return patch.body != ContactBody::kPusher; }
@@ -62,6 +63,7 @@ double dynamic_violation(const SpatialProblem& problem, const SpatialInstant& an
           (is_pad(patch) ? -1.0 : 1.0) * power_taken(forces[i], c);
     }
   }
+  if (!(size_of(fall, units) >= kFalls * units.rate)) return kFails;
   const double scale = units.force * size_of(fall, units);
   return gain > kGains * scale && gain > pusher_takes + kGains * scale ? 0.0 : kFails;
 }
@@ -79,6 +81,7 @@ double load_in_fall(const SpatialProblem& problem, const ContactPatch& patch, in
 double unheld_violation(const SpatialProblem& problem, const SpatialRates& fall,
                         const SpatialCertificateUnits& units) {
   if (!fall.allFinite()) return kFails;
+  if (!(size_of(fall, units) >= kFalls * units.rate)) return kFails;
   double gain = driving_power(problem, fall);
   const double scale = units.force * size_of(fall, units);
   for (int k = 0; k < problem.patch_count; ++k) {

@@ -9,7 +9,7 @@ constexpr int kFirstBudget = 150;
 constexpr int kBudget = 200;
 constexpr double kStiff = 1e-4;     ///< compliance below which continuation comes first
 constexpr double kHeldRate = 10.0;  ///< rates of a held object, as foundations yield
-constexpr double kFallingMass = 1e-4;
+constexpr double kFallRate = 10.0;  ///< rates that no pusher or foundation causes
 constexpr double kOtherMotion = 1e-5;
 constexpr double kJamForce = 1e3;     ///< forces that call for a second look
 constexpr double kJamBalance = 1e-7;  ///< imbalance of unit forces that counts as none
@@ -68,13 +68,26 @@ bool SpatialSearch::solve_directly(const NewtonStart* warm) {
 }
 
 bool SpatialSearch::solve_stubbornly() {
+  // An instant that resists one start mostly yields to the next.
   const SpatialRates along = rates_of_pusher(problem_);
-  if (attempt({.v = along, .r = 0.3}, kBudget)) return true;
-  if (attempt({.e = 1.0, .pace = 10.0}, kBudget)) return true;
-  if (attempt({.e = 0.1, .pace = 0.1}, kBudget)) return true;
-  if (approach_friction()) return true;
-  if (approach_compliance()) return true;
-  return attempt({.v = along, .r = 30.0, .e = 1.0}, 2 * kBudget);
+  const std::array<NewtonStart, 4> quick = {{{.v = along, .r = 0.3},
+                                             {.r = 0.3, .e = 0.1},
+                                             {.e = 10.0},
+                                             {.r = 0.3, .e = 10.0, .pace = 30.0}}};
+  for (const NewtonStart& start : quick) {
+    if (attempt(start, kBudget)) return true;
+  }
+  if (approach_friction() || approach_compliance()) return true;
+  const std::array<NewtonStart, 6> slow = {{{.v = along, .r = 30.0, .e = 1.0},
+                                            {.e = 0.1, .pace = 0.1},
+                                            {.r = 30.0, .e = 0.1, .pace = 30.0},
+                                            {.v = along, .e = 10.0, .pace = 3.0},
+                                            {.r = 0.1, .e = 1.0, .pace = 0.03},
+                                            {.v = along, .r = 0.03, .e = 0.1}}};
+  for (const NewtonStart& start : slow) {
+    if (attempt(start, kBudget)) return true;
+  }
+  return false;
 }
 
 bool SpatialSearch::approach_friction() {
@@ -154,21 +167,43 @@ SpatialSearch::Hold SpatialSearch::judge_hold() {
 
 bool SpatialSearch::find_fall(bool pads_only, SpatialForces& forces,
                               SpatialRates& rates) {
-  for (const double mass : {kFallingMass, 1e-2, 1e-6}) {
-    for (const double pace : {1.0, 10.0, 0.1}) {
-      int steps = 0;
-      const NewtonResult fall =
-          run_newton(problem_, {.pace = pace, .pads_only = pads_only, .added_mass = mass},
-                     tolerance_, kBudget, forces, steps);
-      steps_ += steps;
-      if (!fall.converged) continue;
-      rates = fall.v;
-      // Far beyond what the pusher or a foundation could cause.
-      if (fall.v.norm() > 100.0) return true;
-      break;
-    }
+  // Rounding of the rates against the yield of foundations: no faster than needed.
+  const double enough = std::clamp(1e8 * least_compliance(problem_), 100.0, 1e4);
+  SpatialForces known;
+  NewtonStart start;
+  const auto fall_with = [&](double mass, int budget) {
+    start.pads_only = pads_only;
+    start.added_mass = mass;
+    int steps = 0;
+    const NewtonResult fall =
+        run_newton(problem_, start, tolerance_, budget, forces, steps);
+    steps_ += steps;
+    if (fall.converged) rates = fall.v;
+    return fall.converged;
+  };
+  bool found = false;
+  double mass = 1e-4;
+  for (const double pace : {1.0, 10.0, 0.1, 100.0}) {
+    start = {.pace = pace};
+    found = found || fall_with(mass, kBudget);
   }
-  return false;
+  for (mass = 1e-2; !found && mass <= 1.0; mass *= 10.0) found = fall_with(mass, kBudget);
+  // The rates are the imbalance over the mass: follow it down, or back up.
+  for (int trial = 0; found && trial < 20; ++trial) {
+    const double rate = rates.norm();
+    if (rate > 0.3 * enough && rate < 30.0 * enough) return true;
+    if (rate < 1e-8 / mass) return false;
+    const double factor = std::clamp(rate / enough, 0.1, 10.0);
+    mass *= factor;
+    known = forces;
+    const SpatialRates before = rates;
+    start = {.v = rates / factor, .forces = &known, .r = 0.3};
+    if (fall_with(mass, kBudget)) continue;
+    forces = known;
+    rates = before;
+    break;
+  }
+  return found && rates.norm() > kFallRate;
 }
 
 bool SpatialSearch::find_other(SpatialForces& forces, SpatialRates& rates) {

@@ -23,6 +23,7 @@ class SpatialSearch {
   Hold judge_hold();
 
   /// A fall, with the pusher in place or the pads alone; forces and rates are its own.
+  /// It is slow enough for the yield of foundations to be read from its rates.
   bool find_fall(bool pads_only, SpatialForces& forces, SpatialRates& rates);
 
   /// A motion that differs from the one found, from other starts.

@@ -93,11 +93,13 @@ void check_point(const Question& q, const ContactPatch& patch, int index,
   findings.note(Check::kDissipation, friction.dot(slip), index);
 }
 
-/// All laws of contact for these rates and forces. `forces_only_to` bodies: all.
+/// All laws of contact for these rates and forces, with the pusher or without.
 void check_contacts(const Question& q, const SpatialRates& rates,
-                    const SpatialForceList& forces, Findings& findings) {
+                    const SpatialForceList& forces, bool with_pusher,
+                    Findings& findings) {
   for (int k = 0; k < q.problem.patch_count; ++k) {
     const ContactPatch& patch = q.problem.patch[k];
+    if (!with_pusher && patch.body == ContactBody::kPusher) continue;
     for (int i = patch.first; i < patch.first + patch.count; ++i) {
       check_point(q, patch, i, forces[i], rates_at(q.problem, patch, i, rates), findings);
     }
@@ -196,15 +198,17 @@ SpatialCertificate certify(const SpatialProblem& problem,
     SpatialForceList forces;
     list_forces(answer, forces);
     const SpatialRates rates = falls ? answer.evidence : rates_of(answer);
-    check_contacts(q, rates, forces, findings);
+    check_contacts(q, rates, forces, true, findings);
     if (!falls) {
       check_balance(q, rates, forces, findings);
       check_report(q, answer, forces, findings);
     }
   }
-  if (answer.status == InstantStatus::kAmbiguous && answer.other.allFinite()) {
-    check_contacts(q, answer.other, answer.other_force, findings);
-    check_balance(q, answer.other, answer.other_force, findings);
+  if (answer.status == InstantStatus::kAmbiguous) {
+    const bool moves = answer.other.allFinite();
+    const SpatialRates& rates = moves ? answer.other : answer.evidence;
+    check_contacts(q, rates, answer.other_force, moves, findings);
+    if (moves) check_balance(q, rates, answer.other_force, findings);
   }
   findings.note(Check::kEvidence, evidence_violation(problem, answer, q.units), -1);
   return findings.certificate();

@@ -47,7 +47,7 @@ std::string_view name(SpatialCertificate::Check check);
 ///   kJammed     the forces given lie in the friction cones, balance each other without
 ///               gravity and drive, and take power from the pusher: nothing limits them
 ///   kAmbiguous  a second motion and its forces also obey all laws and balance; or the
-///               evidence is a fall from the pads alone, without the pusher
+///               evidence is such a fall from the pads alone, without the pusher
 ///   kSeparated, kHolds  the pusher carries nothing, and the object moves by no more
 ///               than the foundations of the pads yield
 ///   kNonuniqueForces    the interval holds the force given

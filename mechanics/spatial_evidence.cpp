@@ -44,62 +44,27 @@ double power_taken(const SpatialForce& f, const SeenRates& c) {
   return -(f.normal * c.normal + f.tangential.dot(c.slip) + f.spin * c.spin);
 }
 
-/// The object falls with the rates and forces given.
-double dynamic_violation(const SpatialProblem& problem, const SpatialInstant& answer,
-                         const SpatialCertificateUnits& units) {
-  const SpatialRates& fall = answer.evidence;
+/// The object falls with these rates and forces: gravity and the drive of the jaws gain
+/// more than pads and, if it is there, the pusher take.
+double fall_violation(const SpatialProblem& problem, const SpatialRates& fall,
+                      const SpatialForceList& forces, bool with_pusher,
+                      const SpatialCertificateUnits& units) {
   if (!fall.allFinite()) return kNan;
-  SpatialForceList forces;
-  list_forces(answer, forces);
+  if (!(size_of(fall, units) >= kFalls * units.rate)) return kFails;
   SpatialProblem at_rest = problem;
   at_rest.V_HP.setZero();
   double gain = driving_power(problem, fall);
   double pusher_takes = 0.0;
   for (int k = 0; k < problem.patch_count; ++k) {
     const ContactPatch& patch = problem.patch[k];
+    if (!is_pad(patch) && !with_pusher) continue;
     for (int i = patch.first; i < patch.first + patch.count; ++i) {
-      const SeenRates c = rates_at(at_rest, patch, i, fall);
-      (is_pad(patch) ? gain : pusher_takes) +=
-          (is_pad(patch) ? -1.0 : 1.0) * power_taken(forces[i], c);
+      const double taken = power_taken(forces[i], rates_at(at_rest, patch, i, fall));
+      (is_pad(patch) ? gain : pusher_takes) += is_pad(patch) ? -taken : taken;
     }
   }
-  if (!(size_of(fall, units) >= kFalls * units.rate)) return kFails;
-  const double scale = units.force * size_of(fall, units);
-  return gain > kGains * scale && gain > pusher_takes + kGains * scale ? 0.0 : kFails;
-}
-
-/// Load of a pad point in a fall: what its law says at these rates.
-double load_in_fall(const SpatialProblem& problem, const ContactPatch& patch, int point,
-                    const SeenRates& c) {
-  const double preload = problem.preload[point];
-  if (patch.pressure == PressureLaw::kGiven) return preload;
-  return std::max(0.0, preload - c.normal / patch.compliance);
-}
-
-/// The object falls from the pads alone. Rigid pads: with the most friction that their
-/// sums allow.
-double unheld_violation(const SpatialProblem& problem, const SpatialRates& fall,
-                        const SpatialCertificateUnits& units) {
-  if (!fall.allFinite()) return kFails;
-  if (!(size_of(fall, units) >= kFalls * units.rate)) return kFails;
-  double gain = driving_power(problem, fall);
-  const double scale = units.force * size_of(fall, units);
-  for (int k = 0; k < problem.patch_count; ++k) {
-    const ContactPatch& patch = problem.patch[k];
-    if (!is_pad(patch)) continue;
-    for (int i = patch.first; i < patch.first + patch.count; ++i) {
-      const SeenRates c = rates_at(problem, patch, i, fall);
-      const double slip = std::hypot(c.slip.norm(), patch.spin_radius * c.spin);
-      if (patch.pressure == PressureLaw::kFree) {
-        // No force of the cone works against this rate, or it proves nothing.
-        if (c.normal < patch.mu * slip - 1e-12 * size_of(fall, units)) return kFails;
-        continue;
-      }
-      const double load = load_in_fall(problem, patch, i, c);
-      gain += load * (c.normal - patch.mu * slip);
-    }
-  }
-  return gain >= -1e-9 * scale && scale > 0.0 ? 0.0 : kFails;
+  const double margin = kGains * units.force * size_of(fall, units);
+  return gain > std::max(0.0, pusher_takes) + margin ? 0.0 : kFails;
 }
 
 double other_violation(const SpatialInstant& answer,
@@ -112,7 +77,7 @@ double other_violation(const SpatialInstant& answer,
 double ambiguous_violation(const SpatialProblem& problem, const SpatialInstant& answer,
                            const SpatialCertificateUnits& units) {
   if (answer.other.allFinite()) return other_violation(answer, units);
-  return unheld_violation(problem, answer.evidence, units);
+  return fall_violation(problem, answer.evidence, answer.other_force, false, units);
 }
 
 /// The pusher carries nothing and the object stays.
@@ -306,8 +271,11 @@ double evidence_violation(const SpatialProblem& problem, const SpatialInstant& a
       return interval_violation(problem, answer, units);
     case InstantStatus::kAmbiguous:
       return ambiguous_violation(problem, answer, units);
-    case InstantStatus::kDynamic:
-      return dynamic_violation(problem, answer, units);
+    case InstantStatus::kDynamic: {
+      SpatialForceList forces;
+      list_forces(answer, forces);
+      return fall_violation(problem, answer.evidence, forces, true, units);
+    }
     case InstantStatus::kJammed:
       return jammed_violation(problem, answer, units);
     case InstantStatus::kNotRun:

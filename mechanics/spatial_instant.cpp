@@ -118,29 +118,6 @@ bool has_free_loads(const SpatialProblem& problem, const SpatialInstant& answer)
   return false;
 }
 
-/// Rigid pads may spread their loads at will. A fall is certain for all loads if the jaws
-/// open so far that no force of the friction cones works against it, and gravity still
-/// gains.
-bool falls_for_all_loads(const ScaledSpatial& scaled, SpatialRates& v) {
-  bool rigid = false;
-  SpatialRates opening = SpatialRates::Zero();
-  for_each_point(scaled, [&](const ScaledPatch& patch, int, int lane) {
-    if (patch.body == ContactBody::kPusher || patch.given || patch.R > 0.0) return;
-    rigid = true;
-    const LocalRates y = patch.T * v;
-    const double a = scaled.a[lane];
-    const double b = scaled.b[lane];
-    const Vec3 slip(y[3] - b * y[5], y[4] + a * y[5], patch.e * y[5]);
-    const double lacks = patch.mu * slip.norm() - (y[0] + b * y[1] - a * y[2]);
-    for (int i = 6; i < scaled.freedoms; ++i) {
-      if (patch.T(0, i) != 0.0) opening[i] = std::max(opening[i], lacks);
-    }
-  });
-  if (!rigid) return true;
-  v -= (1.0 + 1e-9) * opening;
-  return scaled.f.dot(v) > 1e-9 * scaled.f.norm() * v.norm();
-}
-
 class Instant {
  public:
   Instant(const SpatialProblem& problem, const SpatialSolveOptions& options,
@@ -193,9 +170,10 @@ class Instant {
     if (hold != Hold::kHeld) {
       SpatialForces fall;
       SpatialRates rates;
-      if (search.find_fall(true, fall, rates) && falls_for_all_loads(scaled_, rates)) {
+      if (search.find_fall(true, fall, rates)) {
         status = InstantStatus::kAmbiguous;
         answer_.evidence = rates_in_hand(scaled_, rates);
+        report_other_forces(fall);
       }
     } else if (pusher_is_idle(scaled_, search.forces())) {
       status = InstantStatus::kSeparated;
@@ -231,11 +209,15 @@ class Instant {
     if (options_.probe_multiplicity && search.find_other(extra, rates)) {
       status = InstantStatus::kAmbiguous;
       answer_.other = rates_in_hand(scaled_, rates);
-      for_each_point(scaled_, [&](const ScaledPatch& patch, int i, int lane) {
-        answer_.other_force[i] = force_of(scaled_, patch, lane, extra);
-      });
+      report_other_forces(extra);
     }
     answer_.status = status;
+  }
+
+  void report_other_forces(const SpatialForces& forces) {
+    for_each_point(scaled_, [&](const ScaledPatch& patch, int i, int lane) {
+      answer_.other_force[i] = force_of(scaled_, patch, lane, forces);
+    });
   }
 
   /// Rates and forces of the last instant as a start.

@@ -63,8 +63,9 @@ struct SpatialInstant {
   /// of the jaws) gains more power than pads and pusher take. kAmbiguous: the same with
   /// the pads alone, so that only the pusher keeps the object from falling.
   SpatialRates evidence = SpatialRates::Constant(kNan);
-  /// kAmbiguous: a second motion, if found, with its forces.
+  /// kAmbiguous: a second motion, if found.
   SpatialRates other = SpatialRates::Constant(kNan);
+  /// kAmbiguous: forces of `other`, or without one those of the pads in `evidence`.
   std::array<SpatialForce, SpatialProblem::kMaxPoints> other_force;
   double force_low = kNan;   ///< see kNonuniqueForces: least and
   double force_high = kNan;  ///< greatest sum of the pusher's normal forces that this

@@ -10,6 +10,7 @@ constexpr int kBudget = 200;
 constexpr double kStiff = 1e-4;     ///< compliance below which continuation comes first
 constexpr double kHeldRate = 10.0;  ///< rates of a held object, as foundations yield
 constexpr double kFallRate = 10.0;  ///< rates that no pusher or foundation causes
+constexpr double kFallTolerance = 1e-8;  ///< enough for evidence
 constexpr double kOtherMotion = 1e-5;
 constexpr double kJamForce = 1e3;     ///< forces that call for a second look
 constexpr double kJamBalance = 1e-7;  ///< imbalance of unit forces that counts as none
@@ -50,6 +51,32 @@ SpatialRates rates_of_pusher(const ScaledSpatial& problem) {
     return v;
   }
   return SpatialRates::Zero();
+}
+
+/// Gravity and the drive of the jaws gain more power than pads and pusher (seen at rest)
+/// take, by a margin.
+bool gains(const ScaledSpatial& problem, const SpatialRates& v,
+           const SpatialForces& forces, bool pads_only) {
+  double gain = problem.f.dot(v);
+  double pusher_takes = 0.0;
+  for (int k = 0; k < problem.patch_count; ++k) {
+    const ScaledPatch& patch = problem.patch[k];
+    const LocalRates y = patch.T * v;
+    double power = 0.0;
+    for (int j = patch.first; j < patch.first + patch.count; ++j) {
+      const double a = problem.a[j];
+      const double b = problem.b[j];
+      power += forces.n[j] * (y[0] + b * y[1] - a * y[2]) +
+               forces.t[j] * (y[3] - b * y[5]) + forces.o[j] * (y[4] + a * y[5]);
+      if (patch.soft) power += forces.s[j] * patch.e * y[5];
+    }
+    if (patch.body != ContactBody::kPusher) {
+      gain += power;
+    } else if (!pads_only) {
+      pusher_takes -= power;
+    }
+  }
+  return gain > std::max(0.0, pusher_takes) + 1e-8 * v.norm();
 }
 
 }  // namespace
@@ -176,34 +203,45 @@ bool SpatialSearch::find_fall(bool pads_only, SpatialForces& forces,
     start.added_mass = mass;
     int steps = 0;
     const NewtonResult fall =
-        run_newton(problem_, start, tolerance_, budget, forces, steps);
+        run_newton(problem_, start, kFallTolerance, budget, forces, steps);
     steps_ += steps;
     if (fall.converged) rates = fall.v;
     return fall.converged;
   };
+  struct Trial {
+    double mass, pace;
+    int budget;
+  };
+  constexpr std::array<Trial, 5> kTrials = {{{1e-4, 1.0, 2 * kBudget},
+                                             {1e-2, 1.0, 5 * kBudget},
+                                             {1e-2, 10.0, 3 * kBudget},
+                                             {1e-4, 10.0, 3 * kBudget},
+                                             {1.0, 1.0, 5 * kBudget}}};
   bool found = false;
-  double mass = 1e-4;
-  for (const double pace : {1.0, 10.0, 0.1, 100.0}) {
-    start = {.pace = pace};
-    found = found || fall_with(mass, kBudget);
+  double mass = 0.0;
+  for (const Trial& trial : kTrials) {
+    if (found) break;
+    mass = trial.mass;
+    start = {.pace = trial.pace};
+    found = fall_with(mass, trial.budget);
   }
-  for (mass = 1e-2; !found && mass <= 1.0; mass *= 10.0) found = fall_with(mass, kBudget);
   // The rates are the imbalance over the mass: follow it down, or back up.
   for (int trial = 0; found && trial < 20; ++trial) {
     const double rate = rates.norm();
-    if (rate > 0.3 * enough && rate < 30.0 * enough) return true;
-    if (rate < 1e-8 / mass) return false;
-    const double factor = std::clamp(rate / enough, 0.1, 10.0);
+    const bool proves = gains(problem_, rates, forces, pads_only);
+    if (proves && rate > 0.3 * enough && rate < 30.0 * enough) return true;
+    if (rate < 1e-8 / mass || rate > 1e6) return false;
+    const double factor = proves ? std::clamp(rate / enough, 0.1, 10.0) : 0.1;
     mass *= factor;
     known = forces;
     const SpatialRates before = rates;
     start = {.v = rates / factor, .forces = &known, .r = 0.3};
-    if (fall_with(mass, kBudget)) continue;
+    if (fall_with(mass, 2 * kBudget)) continue;
     forces = known;
     rates = before;
     break;
   }
-  return found && rates.norm() > kFallRate;
+  return found && rates.norm() > kFallRate && gains(problem_, rates, forces, pads_only);
 }
 
 bool SpatialSearch::find_other(SpatialForces& forces, SpatialRates& rates) {

@@ -80,22 +80,27 @@ double ambiguous_violation(const SpatialProblem& problem, const SpatialInstant& 
   return fall_violation(problem, answer.evidence, answer.other_force, false, units);
 }
 
-/// The pusher carries nothing and the object stays.
+/// The object stays. A pusher that presses on it nevertheless finds pads that stick.
 double rest_violation(const SpatialProblem& problem, const SpatialInstant& answer,
                       const SpatialCertificateUnits& units) {
-  double worst = 0.0;
+  double pressed = 0.0;
+  double slipped = 0.0;
   double yield = 1e-6 * units.rate;
   for (int k = 0; k < problem.patch_count; ++k) {
     const ContactPatch& patch = problem.patch[k];
     if (patch.pressure == PressureLaw::kFoundation) {
       yield = std::max(yield, kYields * patch.compliance * units.force);
     }
-    if (is_pad(patch)) continue;
     for (int i = patch.first; i < patch.first + patch.count; ++i) {
-      worst = worse(worst, std::abs(answer.point[i].normal_force) / units.force);
+      const SpatialPoint& point = answer.point[i];
+      double& worst = is_pad(patch) ? slipped : pressed;
+      worst = worse(worst, is_pad(patch) ? point.slip_rate.norm() / units.rate
+                                         : std::abs(point.normal_force) / units.force);
     }
   }
   const double moved = size_of(rates_of(answer), units);
+  const bool may_press = answer.status == InstantStatus::kHolds;
+  const double worst = may_press ? std::min(pressed, slipped) : pressed;
   return worse(worst, moved <= yield ? 0.0 : moved / units.rate);
 }
 

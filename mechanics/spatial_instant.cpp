@@ -94,12 +94,16 @@ InstantStatus judge_rest(const ScaledSpatial& scaled, const SpatialInstant& answ
   return least > yield ? InstantStatus::kSeparated : InstantStatus::kHolds;
 }
 
-bool pusher_is_idle(const ScaledSpatial& scaled, const SpatialForces& forces) {
-  bool idle = true;
-  for_each_point(scaled, [&](const ScaledPatch& patch, int, int lane) {
-    if (patch.body == ContactBody::kPusher && forces.n[lane] > 1e-9) idle = false;
+/// No pad point slips: the object stands still, up to the yield of foundations.
+bool pads_stick(const ScaledSpatial& scaled, const SpatialInstant& answer) {
+  bool stick = true;
+  for_each_point(scaled, [&](const ScaledPatch& patch, int i, int) {
+    const SpatialPoint& point = answer.point[i];
+    if (patch.body == ContactBody::kPusher) return;
+    stick = stick && point.mode == ContactMode::kStick &&
+            point.slip_rate.norm() <= 1e-7 * scaled.units.rate;
   });
-  return idle;
+  return stick;
 }
 
 /// More loaded points of rigid pads than equations: their loads cannot be unique.
@@ -153,8 +157,10 @@ class Instant {
   using Hold = SpatialSearch::Hold;
 
   void solve_quasi_static(SpatialSearch& search, bool found) {
-    const Hold hold = search.judge_hold();
+    Hold hold = found && search.rests_in_pads() ? Hold::kHeld : search.judge_hold();
     found = found || search.solve_stubbornly();
+    const bool rests = found && search.rests_in_pads();
+    if (rests) hold = Hold::kHeld;
     if (!found) {
       answer_.status = InstantStatus::kOutOfIterations;
       SpatialForces fall;
@@ -175,7 +181,7 @@ class Instant {
         answer_.evidence = rates_in_hand(scaled_, rates);
         report_other_forces(fall);
       }
-    } else if (pusher_is_idle(scaled_, search.forces())) {
+    } else if (rests) {
       status = InstantStatus::kSeparated;
     }
     conclude(search, status);
@@ -197,7 +203,11 @@ class Instant {
     }
     report_motion(problem_, scaled_, search.result().v, search.forces(), answer_);
     if (status == InstantStatus::kSeparated) status = judge_rest(scaled_, answer_);
-    if (status == InstantStatus::kMoves && has_free_loads(problem_, answer_)) {
+    const bool stands = status == InstantStatus::kMoves && !scaled_.has_inertia &&
+                        pads_stick(scaled_, answer_);
+    if (stands) status = InstantStatus::kHolds;
+    if ((status == InstantStatus::kMoves || stands) &&
+        has_free_loads(problem_, answer_)) {
       status = InstantStatus::kNonuniqueForces;
       double sum = 0.0;
       for_each_point(scaled_, [&](const ScaledPatch& patch, int i, int) {

@@ -9,6 +9,7 @@ constexpr int kFirstBudget = 150;
 constexpr int kBudget = 200;
 constexpr double kStiff = 1e-4;     ///< compliance below which continuation comes first
 constexpr double kHeldRate = 10.0;  ///< rates of a held object, as foundations yield
+constexpr double kIdle = 1e-9;      ///< a pusher that carries less carries nothing
 constexpr double kFallRate = 10.0;  ///< rates that no pusher or foundation causes
 constexpr double kFallTolerance = 1e-8;  ///< enough for evidence
 constexpr double kOtherMotion = 1e-5;
@@ -185,11 +186,29 @@ bool SpatialSearch::approach_compliance() {
 
 SpatialSearch::Hold SpatialSearch::judge_hold() {
   SpatialForces forces;
-  int steps = 0;
-  const NewtonResult rest =
-      run_newton(problem_, {.pads_only = true}, 1e-8, kFirstBudget, forces, steps);
-  if (rest.converged) return rest.v.norm() <= kHeldRate ? Hold::kHeld : Hold::kFalls;
-  return rest.runs_away ? Hold::kFalls : Hold::kUnknown;
+  for (const double e : {0.0, 0.1}) {
+    NewtonStart start;
+    start.e = e;
+    start.pads_only = true;
+    int steps = 0;
+    const NewtonResult rest =
+        run_newton(problem_, start, 1e-8, kFirstBudget, forces, steps);
+    steps_ += steps;
+    if (rest.converged) return rest.v.norm() <= kHeldRate ? Hold::kHeld : Hold::kFalls;
+    if (rest.runs_away) return Hold::kFalls;
+  }
+  return Hold::kUnknown;
+}
+
+bool SpatialSearch::rests_in_pads() const {
+  bool idle = true;
+  for (int k = 0; k < problem_.patch_count; ++k) {
+    const ScaledPatch& patch = problem_.patch[k];
+    for (int j = patch.first; j < patch.first + patch.count; ++j) {
+      if (patch.body == ContactBody::kPusher && forces_.n[j] > kIdle) idle = false;
+    }
+  }
+  return idle && result_.v.norm() <= kHeldRate;
 }
 
 bool SpatialSearch::find_fall(bool pads_only, SpatialForces& forces,

@@ -22,6 +22,9 @@ class SpatialSearch {
   enum class Hold { kHeld, kFalls, kUnknown };
   Hold judge_hold();
 
+  /// The motion found is the object at rest in the pads, untouched by the pusher.
+  bool rests_in_pads() const;
+
   /// A fall, with the pusher in place or the pads alone; forces and rates are its own.
   /// It is slow enough for the yield of foundations to be read from its rates.
   bool find_fall(bool pads_only, SpatialForces& forces, SpatialRates& rates);

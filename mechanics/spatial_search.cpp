@@ -265,11 +265,19 @@ bool SpatialSearch::find_fall(bool pads_only, SpatialForces& forces,
 
 bool SpatialSearch::find_other(SpatialForces& forces, SpatialRates& rates) {
   const SpatialRates along = rates_of_pusher(problem_);
-  for (int trial = 0; trial < 8; ++trial) {
-    SpatialRates v = trial == 0 ? along : SpatialRates(SpatialRates::Zero());
-    for (int i = 0; i < problem_.freedoms && trial > 0; ++i) {
-      const double share = std::fmod(0.6180339887498949 * (8 * trial + i + 1), 1.0);
-      v[i] = 6.0 * (share - 0.5);
+  constexpr int kTurns = 6;
+  for (int trial = 0; trial < kTurns + 6; ++trial) {
+    // Fast turns either way, on which the object may leave the pusher; the pusher's own
+    // motion; and a spread of rates.
+    SpatialRates v = SpatialRates::Zero();
+    if (trial < kTurns) {
+      v[5 - trial / 2] = trial % 2 == 0 ? 5.0 : -5.0;
+    } else if (trial == kTurns) {
+      v = along;
+    } else {
+      for (int i = 0; i < problem_.freedoms; ++i) {
+        v[i] = 6.0 * (std::fmod(0.6180339887498949 * (8 * trial + i), 1.0) - 0.5);
+      }
     }
     int steps = 0;
     const NewtonResult other =

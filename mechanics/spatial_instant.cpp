@@ -12,6 +12,7 @@ constexpr double kGrazing = 1e-6;  ///< gap rates below this do not part
 
 constexpr double kRigid = 1e-8;  ///< compliance of the rigid limit, in units V0 / F0
 constexpr double kJamForce = 1e3;
+constexpr double kFallsFreely = 1e6;  ///< rates of inertia alone, lost to rounding in V0
 
 /// Force of a scaled lane in SI.
 SpatialForce force_of(const ScaledSpatial& scaled, const ScaledPatch& patch, int lane,
@@ -143,8 +144,10 @@ class Instant {
     bool found = search.solve_directly(follows ? &warm : nullptr);
     if (scaled_.has_inertia) {
       found = found || search.solve_stubbornly();
-      if (found) {
+      if (found && search.result().v.norm() < kFallsFreely) {
         conclude(search, InstantStatus::kMoves);
+      } else {
+        report_fall(search);
       }
     } else {
       solve_quasi_static(search, found);
@@ -162,14 +165,7 @@ class Instant {
     const bool rests = found && search.rests_in_pads();
     if (rests) hold = Hold::kHeld;
     if (!found) {
-      answer_.status = InstantStatus::kOutOfIterations;
-      SpatialForces fall;
-      SpatialRates rates;
-      if (hold != Hold::kHeld && search.find_fall(false, fall, rates)) {
-        answer_.status = InstantStatus::kDynamic;
-        report_points(problem_, scaled_, rates, fall, answer_);
-        answer_.evidence = rates_in_hand(scaled_, rates);
-      }
+      if (hold != Hold::kHeld) report_fall(search);
       return;
     }
     InstantStatus status = InstantStatus::kMoves;
@@ -185,6 +181,16 @@ class Instant {
       status = InstantStatus::kSeparated;
     }
     conclude(search, status);
+  }
+
+  /// No motion that the pusher has to do with: does the object fall?
+  void report_fall(SpatialSearch& search) {
+    SpatialForces fall;
+    SpatialRates rates;
+    if (!search.find_fall(false, fall, rates)) return;
+    answer_.status = InstantStatus::kDynamic;
+    report_points(problem_, scaled_, rates, fall, answer_);
+    answer_.evidence = rates_in_hand(scaled_, rates);
   }
 
   /// A motion was found.

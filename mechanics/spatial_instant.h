@@ -74,7 +74,7 @@ struct SpatialInstant {
 
 struct SpatialSolveOptions {
   double tolerance = 1e-9;          ///< natural-map residual to reach, 1e-12..1e-6
-  int max_iterations = 4000;        ///< Newton steps in all
+  int max_iterations = 8000;        ///< Newton steps in all
   bool probe_multiplicity = false;  ///< also solve from other starts, for a second motion
   bool rigid_limit = false;  ///< continue the compliance of all foundations down to 1e-8
                              ///< of V0 / F0; the answer is that of the last one, and

@@ -7,6 +7,7 @@ namespace {
 
 constexpr int kStepsPerCentre = 25;
 constexpr int kHalvings = 12;
+constexpr double kLeastProx = 1e-7;
 constexpr double kRunsAway = 1e7;  ///< rates that only a falling object reaches
 
 using Matrix8 = Eigen::Matrix<double, 8, 8>;
@@ -207,7 +208,7 @@ NewtonResult run_newton(const ScaledSpatial& problem, const NewtonStart& start,
   while (true) {
     iteration.set_prox(r, e);
     const double wanted =
-        std::max(0.1 * tolerance, std::min(1e-3, 0.1 * residual * residual));
+        std::max(0.1 * tolerance, std::min(1e-2, 0.1 * residual * residual));
     const bool settled = iteration.settle(wanted, steps, max_steps);
     const double now = iteration.natural_map();
     if (std::isfinite(now)) residual = now;
@@ -218,7 +219,7 @@ NewtonResult run_newton(const ScaledSpatial& problem, const NewtonStart& start,
     }
     if (settled) {
       iteration.move_centres();
-      r = std::max(1e-4 * start.pace, 0.3 * r);
+      r = std::max(kLeastProx * start.pace, 0.3 * r);
       e *= 0.2;
     } else {
       e = std::max(10.0 * e, 0.1 / start.pace);

@@ -10,7 +10,7 @@ namespace prehensile {
 struct NewtonStart {
   SpatialRates v = SpatialRates::Zero();
   const SpatialForces* forces = nullptr;  ///< null: preloads, and no friction
-  double r = 3.0;                         ///< first proximal step of the forces
+  double r = 0.3;                         ///< first proximal step of the forces
   double e = 0.0;                         ///< first artificial inertia
   double pace = 1.0;                      ///< scales all proximal steps
   bool pads_only = false;                 ///< without the pusher

@@ -98,24 +98,46 @@ bool SpatialSearch::solve_directly(const NewtonStart* warm) {
 bool SpatialSearch::solve_stubbornly() {
   // An instant that resists one start mostly yields to the next.
   const SpatialRates along = rates_of_pusher(problem_);
-  const std::array<NewtonStart, 4> quick = {{{.v = along, .r = 0.3},
-                                             {.r = 0.3, .e = 0.1},
-                                             {.e = 10.0},
-                                             {.r = 0.3, .e = 10.0, .pace = 30.0}}};
+  const std::array<NewtonStart, 7> quick = {{{.r = 3.0},
+                                             {.v = along},
+                                             {.e = 0.1},
+                                             {.r = 3.0, .e = 0.1, .pace = 30.0},
+                                             {.r = 3.0, .pace = 1e-4},
+                                             {.r = 3.0, .e = 10.0},
+                                             {.e = 10.0, .pace = 30.0}}};
   for (const NewtonStart& start : quick) {
     if (attempt(start, kBudget)) return true;
   }
-  if (approach_friction() || approach_compliance()) return true;
-  const std::array<NewtonStart, 6> slow = {{{.v = along, .r = 30.0, .e = 1.0},
-                                            {.e = 0.1, .pace = 0.1},
-                                            {.r = 30.0, .e = 0.1, .pace = 30.0},
-                                            {.v = along, .e = 10.0, .pace = 3.0},
-                                            {.r = 0.1, .e = 1.0, .pace = 0.03},
-                                            {.v = along, .r = 0.03, .e = 0.1}}};
+  if (approach_friction() || approach_compliance() || approach_statics()) return true;
+  // Small paces suit a pusher that all but grazes, large ones an object that swings.
+  const std::array<NewtonStart, 8> slow = {
+      {{.r = 30.0, .e = 10.0, .pace = 30.0},
+       {.r = 3.0, .pace = 1e-2},
+       {.r = 3.0, .pace = 1e-6},
+       {.r = 3.0, .e = 0.1, .pace = 0.1},
+       {.r = 30.0, .pace = 30.0},
+       {.v = along, .r = 3.0, .e = 10.0, .pace = 3.0},
+       {.r = 0.1, .e = 1.0, .pace = 0.03},
+       {.v = along, .r = 0.03, .e = 0.1}}};
   for (const NewtonStart& start : slow) {
-    if (attempt(start, kBudget)) return true;
+    if (attempt(start, 2 * kBudget)) return true;
   }
   return false;
+}
+
+bool SpatialSearch::approach_statics() {
+  SpatialForces known;
+  NewtonStart start = {.r = 3.0};
+  for (double mass = 1.0; mass > 1e-8; mass *= 0.1) {
+    start.added_mass = mass;
+    const int until = std::min(max_steps_, steps_ + kBudget);
+    if (steps_ >= until) return false;
+    result_ = run_newton(problem_, start, 1e-6, until, forces_, steps_);
+    if (!result_.converged) return false;
+    known = forces_;
+    start = {.v = result_.v, .forces = &known};
+  }
+  return attempt(start, kBudget);
 }
 
 bool SpatialSearch::approach_friction() {
@@ -125,7 +147,7 @@ bool SpatialSearch::approach_friction() {
   }
   ScaledSpatial easier = problem_;
   SpatialForces known;
-  NewtonStart start;
+  NewtonStart start = {.r = 3.0};
   double level = std::min(0.3, 0.3 * most);
   double known_level = 0.0;
   double factor = 1.5;
@@ -158,7 +180,7 @@ bool SpatialSearch::approach_compliance() {
   if (!std::isfinite(target)) return false;
   ScaledSpatial softer = problem_;
   SpatialForces known;
-  NewtonStart start;
+  NewtonStart start = {.r = 3.0};
   double known_R = 0.0;
   double R = std::max(1e-2, target);
   double factor = 0.1;
@@ -227,40 +249,38 @@ bool SpatialSearch::find_fall(bool pads_only, SpatialForces& forces,
     if (fall.converged) rates = fall.v;
     return fall.converged;
   };
-  struct Trial {
-    double mass, pace;
-    int budget;
+  const auto settle_at = [&](double mass) {
+    start = {.r = 3.0};
+    if (fall_with(mass, kBudget)) return true;
+    start = {.r = 3.0, .pace = 10.0};
+    return fall_with(mass, kBudget);
   };
-  constexpr std::array<Trial, 5> kTrials = {{{1e-4, 1.0, 2 * kBudget},
-                                             {1e-2, 1.0, 5 * kBudget},
-                                             {1e-2, 10.0, 3 * kBudget},
-                                             {1e-4, 10.0, 3 * kBudget},
-                                             {1.0, 1.0, 5 * kBudget}}};
-  bool found = false;
-  double mass = 0.0;
-  for (const Trial& trial : kTrials) {
-    if (found) break;
-    mass = trial.mass;
-    start = {.pace = trial.pace};
-    found = fall_with(mass, trial.budget);
+  double mass = 1e-4;
+  // Any object is slow if it is heavy enough.
+  for (const double heavier : {1e-4, 1.0}) {
+    mass = heavier;
+    if (!settle_at(mass)) continue;
+    // The rates are the imbalance over the mass: follow it down, or back up.
+    for (int trial = 0; trial < 20; ++trial) {
+      const double rate = rates.norm();
+      const bool proves = gains(problem_, rates, forces, pads_only);
+      if (proves && rate > 0.3 * enough && rate < 30.0 * enough) return true;
+      if (rate < 1e-8 / mass || rate > 1e6) return false;
+      const double factor = proves ? std::clamp(rate / enough, 0.1, 10.0) : 0.1;
+      mass *= factor;
+      known = forces;
+      const SpatialRates before = rates;
+      start = {.v = rates / factor, .forces = &known};
+      if (fall_with(mass, kBudget) || settle_at(mass)) continue;
+      forces = known;
+      rates = before;
+      break;
+    }
+    if (rates.norm() > kFallRate && gains(problem_, rates, forces, pads_only)) {
+      return true;
+    }
   }
-  // The rates are the imbalance over the mass: follow it down, or back up.
-  for (int trial = 0; found && trial < 20; ++trial) {
-    const double rate = rates.norm();
-    const bool proves = gains(problem_, rates, forces, pads_only);
-    if (proves && rate > 0.3 * enough && rate < 30.0 * enough) return true;
-    if (rate < 1e-8 / mass || rate > 1e6) return false;
-    const double factor = proves ? std::clamp(rate / enough, 0.1, 10.0) : 0.1;
-    mass *= factor;
-    known = forces;
-    const SpatialRates before = rates;
-    start = {.v = rates / factor, .forces = &known, .r = 0.3};
-    if (fall_with(mass, 2 * kBudget)) continue;
-    forces = known;
-    rates = before;
-    break;
-  }
-  return found && rates.norm() > kFallRate && gains(problem_, rates, forces, pads_only);
+  return false;
 }
 
 bool SpatialSearch::find_other(SpatialForces& forces, SpatialRates& rates) {

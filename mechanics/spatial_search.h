@@ -44,6 +44,7 @@ class SpatialSearch {
   bool attempt(const NewtonStart& start, int budget);
   bool approach_friction();
   bool approach_compliance();
+  bool approach_statics();
 
   const ScaledSpatial& problem_;
   const double tolerance_;

@@ -8,13 +8,13 @@
 #include <gtest/gtest.h>
 
 #include "mechanics/mixed_lemke.h"
-#include "tests/mechanics/linear_cone_cases.h"
+#include "problems/random_spatial.h"
+#include "tests/support/random.h"
 
 namespace prehensile {
 namespace {
 
 using testing::Random;
-using testing::RandomSpatialOptions;
 
 TEST(LinearCone, GeneratorsAreUnitAndComeWithTheirOpposites) {
   for (const bool soft : {false, true}) {
@@ -50,19 +50,18 @@ TEST(LinearCone, GeneratorsFillTheRoundSetAsTheyGrow) {
   }
 }
 
-SpatialProblem any_problem(Random& random, int trial) {
-  RandomSpatialOptions options;
-  options.points_per_pad = trial % 3 == 0 ? 1 : 4;
-  options.pushers = 1 + trial % 2;
-  options.inertia = trial % 4 < 2;
-  SpatialProblem q = testing::random_spatial(random, options);
-  if (trial % 5 == 0) {
-    for (int k = 0; k < 2; ++k) q.patch[k].spin_radius = 4e-3;
-  }
-  if (trial % 7 == 0) q.patch[2].mu = 0.0;
+SpatialProblem any_problem(int trial) {
   const JawMode modes[] = {JawMode::kCoupled, JawMode::kFixedJaw1, JawMode::kIndependent,
                            JawMode::kLocked, JawMode::kFixedJaw2};
-  q.jaw_mode = modes[trial % 5];
+  SpatialProblem q = random_spatial(1, trial,
+                                    {.points_per_pad = trial % 3 == 0 ? 1 : 4,
+                                     .jaw_mode = modes[trial % 5],
+                                     .acceleration = trial % 4 < 2 ? 0.1 : 0.0,
+                                     .spin_radius = trial % 6 == 0 ? 4e-3 : 0.0});
+  if (trial % 7 == 0) q.patch[2].mu = 0.0;
+  if (trial % 8 == 0) {
+    for (int k = 0; k < 2; ++k) q.patch[k].pressure = PressureLaw::kGiven;
+  }
   return q;
 }
 
@@ -71,7 +70,7 @@ SpatialProblem any_problem(Random& random, int trial) {
 TEST(LinearCone, RowsAndLawsAgreeAtAnyPoint) {
   Random random(2);
   for (int trial = 0; trial < 200; ++trial) {
-    const SpatialProblem q = any_problem(random, trial);
+    const SpatialProblem q = any_problem(trial);
     const int g = 4 + 2 * random.below(6);
     LinearCone cone;
     ASSERT_TRUE(pose_linear_cone(q, g, cone));
@@ -94,13 +93,11 @@ TEST(LinearCone, RowsAndLawsAgreeAtAnyPoint) {
 }
 
 TEST(LinearCone, EveryPerturbationShows) {
-  Random random(3);
   int answers = 0;
   for (int trial = 0; trial < 40; ++trial) {
-    RandomSpatialOptions options;
-    options.pushers = 2;
-    options.inertia = trial % 2 == 0;
-    const SpatialProblem q = testing::random_spatial(random, options);
+    const SpatialProblem q = random_spatial(
+        2, trial,
+        {.points_per_pad = 4, .pusher_points = 2, .acceleration = trial % 2 * 0.1});
     LinearCone cone;
     ASSERT_TRUE(pose_linear_cone(q, 8, cone));
     const PivotingResult found = solve_by_pivoting(complementarity_of(cone));
@@ -128,8 +125,7 @@ TEST(LinearCone, EveryPerturbationShows) {
 }
 
 TEST(LinearCone, UnitsMakeScaledQuestionsEqual) {
-  Random random(4);
-  const SpatialProblem q = testing::random_spatial(random, {.inertia = true});
+  const SpatialProblem q = random_spatial(3, 0, {.acceleration = 0.1});
   SpatialProblem scaled = q;
   const double length = 30.0;
   const double force = 1e5;
@@ -165,8 +161,7 @@ TEST(LinearCone, UnitsMakeScaledQuestionsEqual) {
 }
 
 TEST(LinearCone, RefusesWhatMakesNoSense) {
-  Random random(5);
-  const SpatialProblem good = testing::random_spatial(random, {});
+  const SpatialProblem good = random_spatial(4, 0, {.pusher_points = 1});
   LinearCone cone;
   EXPECT_TRUE(pose_linear_cone(good, 8, cone));
   for (const int g : {0, 3, 7, 66, -8}) EXPECT_FALSE(pose_linear_cone(good, g, cone));

@@ -7,22 +7,26 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/mechanics/linear_cone_cases.h"
+#include "mechanics/spatial_instant.h"
+#include "problems/random_spatial.h"
+#include "tests/mechanics/spatial_cases.h"
+#include "tests/support/random.h"
 
 namespace prehensile {
 namespace {
 
-using testing::add_jaws;
-using testing::add_patch;
+using testing::grasp_of;
+using testing::PadLaw;
+using testing::push;
 using testing::Random;
-using testing::random_spatial;
-using testing::set_gravity;
+using testing::weight_at;
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kRate = 0.01;
-constexpr double kSoftness = 1e-3;
-const std::vector<Vec2> kSquare{
-    {-0.006, -0.006}, {-0.006, 0.006}, {0.006, -0.006}, {0.006, 0.006}};
+
+PadLaw pad(double mu, double grip, double softness = 1e-3) {
+  return {.mu = mu, .compliance = softness * kRate / grip};
+}
 
 SpatialReference pivoted(const SpatialProblem& q, int generators) {
   SpatialReference answer = solve_spatial_pivoting(q, {.generators = generators});
@@ -33,12 +37,11 @@ SpatialReference pivoted(const SpatialProblem& q, int generators) {
 
 /// A line pusher on the left face carries the object along `direction`.
 SpatialProblem straight_slide(const Vec2& direction, double weight, double mu_pusher) {
-  SpatialProblem q;
-  add_jaws(q, 20.0, 0.5, 0.01, kSquare, kSoftness, kRate);  // 2 mu N = 20 N
-  add_patch(q, ContactBody::kPusher, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, mu_pusher,
-            {{-0.05, -0.03, 0.0}, {-0.05, 0.03, 0.0}});
-  q.V_HP.head<2>() = kRate * direction;
-  set_gravity(q, {0.0, -weight, 0.0}, Vec3::Zero());
+  SpatialProblem q =  // 2 mu N = 20 N
+      grasp_of(testing::square_points(2, 0.012), 0.01, 20.0, pad(0.5, 20.0));
+  push(q, {{-0.05, -0.03, 0.0}, {-0.05, 0.03, 0.0}}, Vec3::UnitX(), mu_pusher,
+       kRate * Vec3(direction.x(), direction.y(), 0.0));
+  q.w_g = weight_at(Vec3::Zero(), {0.0, -weight, 0.0});
   return q;
 }
 
@@ -90,11 +93,8 @@ TEST(SpatialPivoting, AcceleratedSlideAddsMassTimesAcceleration) {
 
 /// Two points per pad at -/+ b, a frictionless point pusher at distance d.
 SpatialProblem pivot(double b, double d) {
-  SpatialProblem q;
-  add_jaws(q, 20.0, 0.5, 0.01, {{-b, 0.0}, {b, 0.0}}, kSoftness, kRate);
-  add_patch(q, ContactBody::kPusher, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 0.0,
-            {{-0.02, -d, 0.0}});
-  q.V_HP[0] = kRate;
+  SpatialProblem q = grasp_of({{-b, 0.0}, {b, 0.0}}, 0.01, 20.0, pad(0.5, 20.0));
+  push(q, {{-0.02, -d, 0.0}}, Vec3::UnitX(), 0.0, {kRate, 0.0, 0.0});
   return q;
 }
 
@@ -123,13 +123,11 @@ TEST(SpatialPivoting, PivotForceComesToTheClosedFormAsOneOverGSquared) {
 SpatialProblem roll(double mu_sheet, double grip, double mu, double weight,
                     JawMode mode) {
   const double r = 0.01;
-  SpatialProblem q;
+  SpatialProblem q = grasp_of({{-0.01, 0.0}, {0.01, 0.0}}, r, grip, pad(mu, grip, 1e-6));
   q.jaw_mode = mode;
-  add_jaws(q, grip, mu, r, {{-0.01, 0.0}, {0.01, 0.0}}, 1e-6, kRate);
-  add_patch(q, ContactBody::kPusher, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}, mu_sheet,
-            {{-0.01, -r, 0.0}, {0.01, -r, 0.0}});
-  q.V_HP[2] = kRate;
-  set_gravity(q, {0.0, -weight, 0.0}, Vec3::Zero());
+  push(q, {{-0.01, -r, 0.0}, {0.01, -r, 0.0}}, Vec3::UnitY(), mu_sheet,
+       {0.0, 0.0, kRate});
+  q.w_g = weight_at(Vec3::Zero(), {0.0, -weight, 0.0});
   return q;
 }
 
@@ -161,12 +159,10 @@ TEST(SpatialPivoting, SoftPointHasATorqueOfItsOwn) {
   const double e = 0.006;
   const double d = 0.03;
   for (const int g : {8, 16, 32}) {
-    SpatialProblem q;
-    add_jaws(q, 20.0, 0.5, 0.01, {{0.0, 0.0}}, kSoftness, kRate);
-    for (int k = 0; k < 2; ++k) q.patch[k].spin_radius = e;
-    add_patch(q, ContactBody::kPusher, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 0.0,
-              {{-0.02, -d, 0.0}});
-    q.V_HP[0] = kRate;
+    PadLaw law = pad(0.5, 20.0);
+    law.spin_radius = e;
+    SpatialProblem q = grasp_of({{0.0, 0.0}}, 0.01, 20.0, law);
+    push(q, {{-0.02, -d, 0.0}}, Vec3::UnitX(), 0.0, {kRate, 0.0, 0.0});
     // f^2 + (f d / e)^2 = (2 mu N)^2: slip and spin share the round set.
     const double force = 20.0 * e / std::hypot(e, d);
     const SpatialReference answer = pivoted(q, g);
@@ -178,64 +174,83 @@ TEST(SpatialPivoting, SoftPointHasATorqueOfItsOwn) {
   }
 }
 
-// Whatever the inertia, down to none: the answers of the ordinary range, at rounding.
+// Whatever the inertia, down to none: what the exact solver answers is answered here too,
+// at rounding. (Inscribed cones hold a little less, so a few grasps drop what they
+// carry.)
 TEST(SpatialPivoting, OrdinaryInstantsAreSolvedToRounding) {
+  Random random(2);
   for (const bool inertia : {true, false}) {
-    Random random(2);
-    int solved = 0;
     int asked = 0;
-    for (int trial = 0; trial < 200; ++trial) {
+    int solved = 0;
+    for (int index = 0; index < 200; ++index) {
       const SpatialProblem q =
-          random_spatial(random, {.points_per_pad = trial % 2 == 0 ? 1 : 4,
-                                  .pushers = 1 + trial % 3 / 2,
-                                  .softness = random.log_in(1e-4, 1e-1),
-                                  .push_rate = inertia ? random.log_in(1e-6, 10.0) : 0.1,
-                                  .inertia = inertia});
-      const SpatialReference answer = solve_spatial_pivoting(q);
+          random_spatial(5, index,
+                         {.points_per_pad = 1 << index % 3,
+                          .acceleration = inertia ? random.log_in(1e-6, 10.0) : 0.0,
+                          .compliance = random.log_in(1e-4, 1e-1)});
+      if (solve_spatial(q).status != InstantStatus::kMoves) continue;
       ++asked;
+      const SpatialReference answer = solve_spatial_pivoting(q);
       if (answer.status != SpatialReferenceStatus::kSolved) continue;
       ++solved;
       EXPECT_LT(answer.residual, 1e-9);
     }
-    // Without inertia some grasps do not hold gravity and have no answer.
-    EXPECT_GE(solved, inertia ? asked - 1 : asked * 85 / 100);
+    EXPECT_GT(asked, 90);
+    EXPECT_GE(solved, inertia ? asked : asked * 95 / 100);
   }
 }
 
-double twist_distance(const SpatialTwist& a, const SpatialTwist& b, double length) {
-  SpatialTwist difference = a - b;
-  difference.tail<3>() *= length;
-  return difference.norm();
+struct Distances {
+  std::vector<double> force;  // of the push force, over it
+  std::vector<double> twist;  // over the push rate, turns by 1 cm
+};
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
-// More generators, less to go: medians against g = 64 fall by about 4 in force for each
-// doubling.
-TEST(SpatialPivoting, RandomInstantsComeTogetherAsGGrows) {
-  Random random(3);
-  std::vector<std::vector<double>> errors(4);
-  for (int trial = 0; trial < 60; ++trial) {
+/// Polyhedral answers against those of the exact solver on circular cones, for instants
+/// that have one answer.
+Distances distances(int g, int instants) {
+  Distances found;
+  for (int index = 0; index < instants; ++index) {
     const SpatialProblem q =
-        random_spatial(random, {.points_per_pad = 1, .pushers = 2, .inertia = true});
-    const SpatialReference fine = solve_spatial_pivoting(q, {.generators = 64});
-    if (fine.status != SpatialReferenceStatus::kSolved) continue;
-    for (int level = 0; level < 4; ++level) {
-      const SpatialReference coarse =
-          solve_spatial_pivoting(q, {.generators = 4 << level});
-      if (coarse.status != SpatialReferenceStatus::kSolved) continue;
-      errors[level].push_back((coarse.w_push - fine.w_push).head<3>().norm() /
-                              fine.w_push.head<3>().norm());
-    }
+        random_spatial(6, index, {.points_per_pad = 4, .acceleration = index % 2 * 0.1});
+    const SpatialInstant exact = solve_spatial(q);
+    if (exact.status != InstantStatus::kMoves) continue;
+    const SpatialReference answer = solve_spatial_pivoting(q, {.generators = g});
+    if (answer.status != SpatialReferenceStatus::kSolved) continue;
+    const Vec3 force = (answer.w_push - exact.w_push).head<3>();
+    SpatialTwist twist = answer.V_HO - exact.V_HO;
+    twist.tail<3>() *= 0.01;
+    found.force.push_back(force.norm() / exact.push_force);
+    found.twist.push_back(twist.norm() / q.V_HP.head<3>().norm());
   }
-  std::vector<double> median;
-  for (auto& level : errors) {
-    ASSERT_GT(level.size(), 50u);
-    std::nth_element(level.begin(), level.begin() + level.size() / 2, level.end());
-    median.push_back(level[level.size() / 2]);
+  return found;
+}
+
+void expect_convergence(int instants, const std::vector<int>& generators) {
+  double force = 0.6;
+  double twist = 0.4;
+  for (const int g : generators) {
+    Distances found = distances(g, instants);
+    ASSERT_GT(static_cast<int>(found.force.size()), instants * 7 / 10);
+    // In force by about 4 per doubling, in twist by about 2.
+    force /= 2.5;
+    twist /= 1.5;
+    EXPECT_LT(median(found.force), force) << g;
+    EXPECT_LT(median(found.twist), twist) << g;
   }
-  EXPECT_LT(median[1], 0.7 * median[0]);
-  EXPECT_LT(median[2], 0.7 * median[1]);
-  EXPECT_LT(median[3], 0.7 * median[2]);
-  EXPECT_LT(median[3], 0.03);
+}
+
+TEST(SpatialPivoting, ComesToTheExactSolverAsGGrows) {
+  expect_convergence(60, {4, 8, 16});
+}
+
+TEST(SpatialPivoting, ComesToTheExactSolverAsGGrowsFull) {
+  expect_convergence(300, {4, 8, 16, 32});
 }
 
 class SpatialInteriorPoint : public ::testing::Test {
@@ -254,29 +269,26 @@ TEST_F(SpatialInteriorPoint, StraightSlide) {
   EXPECT_NEAR(answer.w_push[1], 4.0, 1e-5);
 }
 
-// Two ways that share no solver: where both answer, it is the same answer.
+// Two ways that share no solver: where both answer, it is the same answer, but for the
+// rare instant with two motions.
 TEST_F(SpatialInteriorPoint, AgreesWithPivoting) {
-  Random random(4);
   int both = 0;
   int same = 0;
-  for (int trial = 0; trial < 40; ++trial) {
-    const SpatialProblem q = random_spatial(
-        random, {.points_per_pad = trial % 2 == 0 ? 1 : 4, .inertia = true});
+  for (int index = 0; index < 16; ++index) {
+    const SpatialProblem q =
+        random_spatial(7, index, {.points_per_pad = 2, .acceleration = 0.1});
     const SpatialReference one = solve_spatial_pivoting(q, {.generators = 6});
     const SpatialReference other =
-        solve_spatial_reference(q, {.generators = 6, .starts = 4});
-    if (one.status != SpatialReferenceStatus::kSolved ||
-        other.status != SpatialReferenceStatus::kSolved) {
-      continue;
-    }
+        solve_spatial_reference(q, {.generators = 6, .starts = 2});
+    ASSERT_EQ(one.status, SpatialReferenceStatus::kSolved);
+    if (other.status != SpatialReferenceStatus::kSolved) continue;
     ++both;
-    if (twist_distance(one.V_HO, other.V_HO, 0.02) < 1e-4 * 0.1 &&
-        (one.w_push - other.w_push).norm() < 1e-4 * q.grip_force) {
-      ++same;
-    }
+    const Vec3 twist = (one.V_HO - other.V_HO).head<3>();
+    const Vec3 force = (one.w_push - other.w_push).head<3>();
+    if (twist.norm() < 1e-4 * 0.1 && force.norm() < 1e-4 * q.grip_force) ++same;
   }
-  EXPECT_GE(both, 24);
-  EXPECT_GE(same, both - 2);  // one point per pad: two motions may be possible
+  EXPECT_GE(both, 8);
+  EXPECT_GE(same, both - 1);
 }
 
 TEST(SpatialReferences, RefuseWhatMakesNoSense) {
@@ -297,7 +309,7 @@ TEST(SpatialReferences, RefuseWhatMakesNoSense) {
 // never called solved.
 TEST(SpatialReferences, NoAnswerIsNotCalledOne) {
   SpatialProblem q = straight_slide({1.0, 0.0}, 0.0, 0.0);
-  set_gravity(q, {0.0, -30.0, 0.0}, Vec3::Zero());
+  q.w_g = weight_at(Vec3::Zero(), {0.0, -30.0, 0.0});
   const SpatialReference answer = solve_spatial_pivoting(q);
   EXPECT_NE(answer.status, SpatialReferenceStatus::kSolved);
   if (!spatial_reference_is_built()) return;

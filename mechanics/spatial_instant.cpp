@@ -48,7 +48,7 @@ void report_points(const SpatialProblem& problem, const ScaledSpatial& scaled,
   const ScaledPatch* seen = nullptr;
   LocalRates y;
   for_each_point(scaled, [&](const ScaledPatch& patch, int i, int lane) {
-    if (seen != &patch) y = patch.T * v - patch.prescribed;
+    if (seen != &patch) y = patch.relative_rates(v);
     seen = &patch;
     SpatialPoint& point = answer.point[i];
     const SpatialForce f = force_of(scaled, patch, lane, forces);
@@ -75,10 +75,11 @@ void report_motion(const SpatialProblem& problem, const ScaledSpatial& scaled,
   for_each_point(scaled, [&](const ScaledPatch& patch, int i, int) {
     if (patch.body != ContactBody::kPusher) return;
     const SpatialPoint& point = answer.point[i];
-    const Vec3 f = point.normal_force * patch.n + point.tangential_force.x() * patch.t +
-                   point.tangential_force.y() * patch.o;
+    const Vec3 f = patch.Q * Vec3(point.normal_force, point.tangential_force.x(),
+                                  point.tangential_force.y());
     answer.w_push.head<3>() += f;
-    answer.w_push.tail<3>() += problem.p_HC(i).cross(f) + point.spin_moment * patch.n;
+    answer.w_push.tail<3>() +=
+        problem.p_HC(i).cross(f) + point.spin_moment * patch.Q.col(0);
   });
   answer.push_force = answer.w_push.head<3>().norm();
 }

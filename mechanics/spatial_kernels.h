@@ -19,10 +19,11 @@ struct SpatialForces {
 
 /// Local wrench of a patch and - d wrench / d local rates.
 struct PatchSums {
-  LocalRates wrench = LocalRates::Zero();
-  Eigen::Matrix3d K_nn = Eigen::Matrix3d::Zero();  ///< symmetric
-  Eigen::Matrix3d K_tt = Eigen::Matrix3d::Zero();  ///< symmetric
-  Eigen::Matrix3d K_tn = Eigen::Matrix3d::Zero();  ///< friction follows the normal force
+  LocalRates wrench;
+  /// Symmetric: (v_n, w_t, w_o) for K_nn, (v_t, v_o, w_n) for K_tt, upper triangles by
+  /// rows.
+  std::array<double, 6> K_nn, K_tt;
+  std::array<double, 9> K_tn;  ///< friction follows the normal force; by rows
 };
 
 namespace spatial_kernels {
@@ -146,15 +147,21 @@ PatchSums project(const ScaledSpatial& problem, const ScaledPatch& patch,
     }
   }
   PatchSums sums;
-  sums.wrench << fn.sum(), mt.sum(), mo.sum(), ft.sum(), fo.sum(), mn.sum();
-  if constexpr (!kGiven) {
-    const double sb = kb.sum(), sa = ka.sum(), sab = kab.sum();
-    sums.K_nn << k1.sum(), sb, -sa, sb, kbb.sum(), -sab, -sa, -sab, kaa.sum();
-    sums.K_tn << c00.sum(), c01.sum(), c02.sum(), c10.sum(), c11.sum(), c12.sum(),
-        c20.sum(), c21.sum(), c22.sum();
+  sums.wrench[0] = fn.sum();
+  sums.wrench[1] = mt.sum();
+  sums.wrench[2] = mo.sum();
+  sums.wrench[3] = ft.sum();
+  sums.wrench[4] = fo.sum();
+  sums.wrench[5] = mn.sum();
+  sums.K_tt = {tt.sum(), to.sum(), tm.sum(), oo.sum(), om.sum(), mm.sum()};
+  if constexpr (kGiven) {
+    sums.K_nn.fill(0.0);
+    sums.K_tn.fill(0.0);
+  } else {
+    sums.K_nn = {k1.sum(), kb.sum(), -ka.sum(), kbb.sum(), -kab.sum(), kaa.sum()};
+    sums.K_tn = {c00.sum(), c01.sum(), c02.sum(), c10.sum(), c11.sum(),
+                 c12.sum(), c20.sum(), c21.sum(), c22.sum()};
   }
-  const double sto = to.sum(), stm = tm.sum(), som = om.sum();
-  sums.K_tt << tt.sum(), sto, stm, sto, oo.sum(), som, stm, som, mm.sum();
   return sums;
 }
 

@@ -10,17 +10,21 @@ constexpr int kHalvings = 12;
 constexpr double kLeastProx = 1e-7;
 constexpr double kRunsAway = 1e7;  ///< rates that only a falling object reaches
 
-using Matrix8 = Eigen::Matrix<double, 8, 8>;
+using Matrix8 = Eigen::Matrix<double, 8, 8, Eigen::RowMajor>;
 
 /// Solves the leading n x n system in place by elimination with row exchange; false where
-/// it is singular.
+/// it is singular. Whole rows are combined, so that they may go in lanes.
 bool solve_small(Matrix8& A, SpatialRates& x, int n) {
   for (int k = 0; k < n; ++k) {
     int best = k;
+    double size = std::abs(A(k, k));
     for (int i = k + 1; i < n; ++i) {
-      if (std::abs(A(i, k)) > std::abs(A(best, k))) best = i;
+      if (std::abs(A(i, k)) > size) {
+        best = i;
+        size = std::abs(A(i, k));
+      }
     }
-    if (!(std::abs(A(best, k)) > 0.0)) return false;
+    if (!(size > 0.0)) return false;
     if (best != k) {
       A.row(k).swap(A.row(best));
       std::swap(x[k], x[best]);
@@ -28,15 +32,96 @@ bool solve_small(Matrix8& A, SpatialRates& x, int n) {
     const double per_pivot = 1.0 / A(k, k);
     for (int i = k + 1; i < n; ++i) {
       const double factor = A(i, k) * per_pivot;
-      for (int j = k + 1; j < n; ++j) A(i, j) -= factor * A(k, j);
+      if (factor == 0.0) continue;
+      A.row(i) -= factor * A.row(k);
       x[i] -= factor * x[k];
     }
+    A(k, k) = per_pivot;
   }
   for (int k = n - 1; k >= 0; --k) {
-    for (int j = k + 1; j < n; ++j) x[k] -= A(k, j) * x[j];
-    x[k] /= A(k, k);
+    double rest = x[k];
+    for (int j = k + 1; j < n; ++j) rest -= A(k, j) * x[j];
+    x[k] = rest * A(k, k);
   }
   return x.allFinite();
+}
+
+/// Adds a patch's wrench to the balance, with its sign turned, and to the jaws.
+void subtract_wrench(const ScaledPatch& patch, const LocalRates& w,
+                     SpatialRates& balance) {
+  const double h = patch.height;
+  balance.head<3>() -= patch.Q * Vec3(w[0], w[3], w[4]);
+  balance.segment<3>(3) -= patch.Q * Vec3(w[5], w[1] - h * w[4], w[2] + h * w[3]);
+  balance[6] += patch.closing[0] * w[0];
+  balance[7] += patch.closing[1] * w[0];
+}
+
+/// Turns a patch's stiffness into H. In the axes of the patch, the local rates are linear
+/// in the object's (u | w) about the centre: only v_t = u_t + h w_o and v_o = u_o - h w_t
+/// mix, which leaves few products.
+void add_stiffness(const ScaledPatch& patch, const PatchSums& sums, Matrix8& jacobian) {
+  const auto& N = sums.K_nn;
+  const auto& C = sums.K_tn;
+  const auto& T = sums.K_tt;
+  const double h = patch.height;
+  // Rows and columns in the order (n, t, o).
+  Eigen::Matrix3d uu, uw, wu, ww;
+  uu(0, 0) = N[0];
+  uu(0, 1) = uu(0, 2) = 0.0;
+  uu(1, 0) = C[0];
+  uu(1, 1) = T[0];
+  uu(1, 2) = T[1];
+  uu(2, 0) = C[3];
+  uu(2, 1) = T[1];
+  uu(2, 2) = T[3];
+  uw(0, 0) = 0.0;
+  uw(0, 1) = N[1];
+  uw(0, 2) = N[2];
+  uw(1, 0) = T[2];
+  uw(1, 1) = C[1] - h * T[1];
+  uw(1, 2) = C[2] + h * T[0];
+  uw(2, 0) = T[4];
+  uw(2, 1) = C[4] - h * T[3];
+  uw(2, 2) = C[5] + h * T[1];
+  wu(0, 0) = C[6];
+  wu(0, 1) = T[2];
+  wu(0, 2) = T[4];
+  wu(1, 0) = N[1] - h * C[3];
+  wu(1, 1) = -h * T[1];
+  wu(1, 2) = -h * T[3];
+  wu(2, 0) = N[2] + h * C[0];
+  wu(2, 1) = h * T[0];
+  wu(2, 2) = h * T[1];
+  ww(0, 0) = T[5];
+  ww(0, 1) = C[7] - h * T[4];
+  ww(0, 2) = C[8] + h * T[2];
+  ww(1, 0) = -h * T[4];
+  ww(1, 1) = N[3] - h * uw(2, 1);
+  ww(1, 2) = N[4] - h * uw(2, 2);
+  ww(2, 0) = h * T[2];
+  ww(2, 1) = N[4] + h * uw(1, 1);
+  ww(2, 2) = N[5] + h * uw(1, 2);
+  const Eigen::Matrix3d& Q = patch.Q;
+  const Eigen::Matrix3d Qt = Q.transpose();
+  jacobian.topLeftCorner<3, 3>() += (Q * uu) * Qt;
+  jacobian.block<3, 3>(0, 3) += (Q * uw) * Qt;
+  jacobian.block<3, 3>(3, 0) += (Q * wu) * Qt;
+  jacobian.block<3, 3>(3, 3) += (Q * ww) * Qt;
+  if (patch.body == ContactBody::kPusher) return;
+  const Vec3 force = Q * uu.col(0);
+  const Vec3 moment = Q * wu.col(0);
+  const Vec3 by_turn = Q * Vec3(0.0, N[1], N[2]);
+  for (int i = 0; i < 2; ++i) {
+    const double a = patch.closing[i];
+    if (a == 0.0) continue;
+    for (int row = 0; row < 3; ++row) {
+      jacobian(row, 6 + i) -= a * force[row];
+      jacobian(3 + row, 6 + i) -= a * moment[row];
+      jacobian(6 + i, row) -= a * N[0] * Q(row, 0);
+      jacobian(6 + i, 3 + row) -= a * by_turn[row];
+    }
+    for (int j = 0; j < 2; ++j) jacobian(6 + i, 6 + j) += a * patch.closing[j] * N[0];
+  }
 }
 
 class Iteration {
@@ -94,7 +179,7 @@ class Iteration {
     for (int k = 0; k < problem_.patch_count; ++k) {
       const ScaledPatch& patch = problem_.patch[k];
       if (is_left_out(patch)) continue;
-      const LocalRates y = patch.T * v_ - patch.prescribed;
+      const LocalRates y = patch.relative_rates(v_);
       worst = std::max(worst,
                        spatial_kernels::distance_from_laws(problem_, patch, y, force_));
     }
@@ -150,16 +235,10 @@ class Iteration {
     for (int k = 0; k < problem_.patch_count; ++k) {
       const ScaledPatch& patch = problem_.patch[k];
       if (is_left_out(patch)) continue;
-      const LocalRates y = patch.T * v - patch.prescribed;
+      const LocalRates y = patch.relative_rates(v);
       const PatchSums sums = project(patch, y);
-      balance_.noalias() -= patch.T.transpose() * sums.wrench;
-      const auto normal = patch.T.topRows<3>();
-      const auto tangential = patch.T.bottomRows<3>();
-      const Eigen::Matrix<double, 3, 8> by_normal = sums.K_nn * normal;
-      const Eigen::Matrix<double, 3, 8> by_friction =
-          sums.K_tt * tangential + sums.K_tn * normal;
-      jacobian_.noalias() += normal.transpose() * by_normal;
-      jacobian_.noalias() += tangential.transpose() * by_friction;
+      subtract_wrench(patch, sums.wrench, balance_);
+      add_stiffness(patch, sums, jacobian_);
     }
     for (int i = problem_.freedoms; i < 8; ++i) balance_[i] = 0.0;
   }

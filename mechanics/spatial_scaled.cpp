@@ -169,41 +169,27 @@ void place_patch(const SpatialProblem& problem, const ContactPatch& patch,
               : 0.0;
   out.e = patch.spin_radius / units.length;
   out.soft = out.e > 0.0;
-  out.n = patch.n;
-  out.t = patch.t;
-  out.o = patch.o();
-  const Vec3 origin = problem.p_HC(patch.first);
+  out.Q.col(0) = patch.n;
+  out.Q.col(1) = patch.t;
+  out.Q.col(2) = patch.o();
+  const Vec3 origin = problem.p_HC(patch.first) - units.centre;
+  const Vec3 foot = out.Q.transpose() * origin / units.length;
+  out.height = foot[0];
   for (int j = 0; j < out.padded; ++j) {
     const bool real = j < patch.count;
-    const Vec3 p = problem.p_HC(patch.first + (real ? j : 0)) - origin;
-    scaled.a[out.first + j] = out.t.dot(p) / units.length;
-    scaled.b[out.first + j] = out.o.dot(p) / units.length;
-    scaled.preload[out.first + j] =
-        real ? problem.preload[patch.first + j] / units.force : 0.0;
+    const int lane = out.first + j;
+    const Vec3 p = problem.p_HC(patch.first + (real ? j : 0)) - units.centre;
+    scaled.a[lane] = patch.t.dot(p) / units.length;
+    scaled.b[lane] = out.Q.col(2).dot(p) / units.length;
+    scaled.preload[lane] = real ? problem.preload[patch.first + j] / units.force : 0.0;
   }
   scaled.padded += out.padded;
-
-  const Vec3 p0 = (origin - units.centre) / units.length;
-  out.T.setZero();
-  const auto translation = [&](int row, const Vec3& axis) {
-    out.T.row(row).head<3>() = axis.transpose();
-    out.T.row(row).segment<3>(3) = p0.cross(axis).transpose();
-  };
-  translation(0, out.n);
-  translation(3, out.t);
-  translation(4, out.o);
-  out.T.row(1).segment<3>(3) = out.t.transpose();
-  out.T.row(2).segment<3>(3) = out.o.transpose();
-  out.T.row(5).segment<3>(3) = out.n.transpose();
+  out.closing = {0.0, 0.0};
   out.prescribed.setZero();
   if (patch.body == ContactBody::kPusher) {
-    const Vec3 v = velocity(problem.V_HP, origin) / units.rate;
-    const Vec3 w = problem.V_HP.tail<3>() * (units.length / units.rate);
-    out.prescribed << out.n.dot(v), out.t.dot(w), out.o.dot(w), out.t.dot(v),
-        out.o.dot(v), out.n.dot(w);
+    out.prescribed = out.local_rates(scaled.pusher);
   } else {
-    const auto& share = patch.body == ContactBody::kJaw1 ? jaws.jaw1 : jaws.jaw2;
-    for (int i = 0; i < jaws.count; ++i) out.T(0, 6 + i) = -share[i];
+    out.closing = patch.body == ContactBody::kJaw1 ? jaws.jaw1 : jaws.jaw2;
   }
 }
 
@@ -242,6 +228,9 @@ void scale(const SpatialProblem& problem, ScaledSpatial& scaled) noexcept {
   scaled.freedoms = 6 + jaws.count;
   scaled.patch_count = problem.patch_count;
   scaled.padded = 0;
+  scaled.pusher.setZero();
+  scaled.pusher.head<6>() = problem.V_HP;
+  scaled.pusher = scaled_rates(scaled, scaled.pusher);
   for (int k = 0; k < problem.patch_count; ++k) {
     place_patch(problem, problem.patch[k], jaws, scaled, scaled.patch[k]);
   }

@@ -32,28 +32,6 @@ void soften(const ScaledSpatial& problem, double R, ScaledSpatial& softer) {
   }
 }
 
-/// Rates that the pusher would give the object if they moved as one body.
-SpatialRates rates_of_pusher(const ScaledSpatial& problem) {
-  for (int k = 0; k < problem.patch_count; ++k) {
-    const ScaledPatch& patch = problem.patch[k];
-    if (patch.body != ContactBody::kPusher) continue;
-    // Rows of T are orthogonal once the lever of the patch's origin is taken out.
-    const auto& T = patch.T;
-    SpatialRates v = SpatialRates::Zero();
-    const LocalRates& y = patch.prescribed;
-    const Vec3 w = y[1] * patch.t + y[2] * patch.o + y[5] * patch.n;
-    Vec3 at_centre;
-    at_centre[0] = y[0] - T.row(0).segment<3>(3).dot(w);
-    at_centre[1] = y[3] - T.row(3).segment<3>(3).dot(w);
-    at_centre[2] = y[4] - T.row(4).segment<3>(3).dot(w);
-    v.head<3>() =
-        at_centre[0] * patch.n + at_centre[1] * patch.t + at_centre[2] * patch.o;
-    v.segment<3>(3) = w;
-    return v;
-  }
-  return SpatialRates::Zero();
-}
-
 /// Gravity and the drive of the jaws gain more power than pads and pusher (seen at rest)
 /// take, by a margin.
 bool gains(const ScaledSpatial& problem, const SpatialRates& v,
@@ -62,7 +40,7 @@ bool gains(const ScaledSpatial& problem, const SpatialRates& v,
   double pusher_takes = 0.0;
   for (int k = 0; k < problem.patch_count; ++k) {
     const ScaledPatch& patch = problem.patch[k];
-    const LocalRates y = patch.T * v;
+    const LocalRates y = patch.local_rates(v);
     double power = 0.0;
     for (int j = patch.first; j < patch.first + patch.count; ++j) {
       const double a = problem.a[j];
@@ -97,7 +75,7 @@ bool SpatialSearch::solve_directly(const NewtonStart* warm) {
 
 bool SpatialSearch::solve_stubbornly() {
   // An instant that resists one start mostly yields to the next.
-  const SpatialRates along = rates_of_pusher(problem_);
+  const SpatialRates& along = problem_.pusher;
   const std::array<NewtonStart, 7> quick = {{{.r = 3.0},
                                              {.v = along},
                                              {.e = 0.1},
@@ -284,7 +262,7 @@ bool SpatialSearch::find_fall(bool pads_only, SpatialForces& forces,
 }
 
 bool SpatialSearch::find_other(SpatialForces& forces, SpatialRates& rates) {
-  const SpatialRates along = rates_of_pusher(problem_);
+  const SpatialRates& along = problem_.pusher;
   constexpr int kTurns = 6;
   for (int trial = 0; trial < kTurns + 6; ++trial) {
     // Fast turns either way, on which the object may leave the pusher; the pusher's own

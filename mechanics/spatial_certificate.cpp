@@ -107,8 +107,9 @@ void check_contacts(const Question& q, const SpatialRates& rates,
 }
 
 void check_balance(const Question& q, const SpatialRates& rates,
-                   const SpatialForceList& forces, Findings& findings) {
-  const SpatialRates off = imbalance(q.problem, rates, forces.data(), q.units);
+                   const SpatialForceList& forces, bool with_pusher, Findings& findings) {
+  const SpatialRates off =
+      imbalance(q.problem, rates, forces.data(), with_pusher, q.units);
   for (int row = 0; row < 6; ++row) {
     findings.note(Check::kNewton, std::abs(off[row]), row);
   }
@@ -147,6 +148,30 @@ void check_report(const Question& q, const SpatialInstant& answer,
   findings.note(Check::kNewton, moment.norm() / (units.force * units.length), -1);
   const double size = answer.w_push.head<3>().norm();
   findings.note(Check::kNewton, std::abs(answer.push_force - size) / units.force, -1);
+}
+
+/// Does the pusher press on the object?
+bool presses(const Question& q, const SpatialInstant& answer) {
+  for (int k = 0; k < q.problem.patch_count; ++k) {
+    const ContactPatch& patch = q.problem.patch[k];
+    if (patch.body != ContactBody::kPusher) continue;
+    for (int i = patch.first; i < patch.first + patch.count; ++i) {
+      if (!(answer.point[i].normal_force <= 1e-9 * q.units.force)) return true;
+    }
+  }
+  return false;
+}
+
+/// That the pads hold gravity by themselves: the answer shows them doing it.
+void check_hold(const Question& q, const SpatialInstant& answer, Findings& findings) {
+  const bool has_inertia = !q.problem.inertia.isZero(0.0) || q.problem.jaw_mass > 0.0;
+  if (has_inertia || !presses(q, answer)) return;
+  if (!answer.evidence.allFinite()) {
+    findings.note(Check::kEvidence, kNan, -1);
+    return;
+  }
+  check_contacts(q, answer.evidence, answer.other_force, false, findings);
+  check_balance(q, answer.evidence, answer.other_force, false, findings);
 }
 
 bool has_motion(InstantStatus status) {
@@ -200,7 +225,7 @@ SpatialCertificate certify(const SpatialProblem& problem,
     const SpatialRates rates = falls ? answer.evidence : rates_of(answer);
     check_contacts(q, rates, forces, true, findings);
     if (!falls) {
-      check_balance(q, rates, forces, findings);
+      check_balance(q, rates, forces, true, findings);
       check_report(q, answer, forces, findings);
     }
   }
@@ -208,8 +233,9 @@ SpatialCertificate certify(const SpatialProblem& problem,
     const bool moves = answer.other.allFinite();
     const SpatialRates& rates = moves ? answer.other : answer.evidence;
     check_contacts(q, rates, answer.other_force, moves, findings);
-    if (moves) check_balance(q, rates, answer.other_force, findings);
+    if (moves) check_balance(q, rates, answer.other_force, true, findings);
   }
+  if (usable(answer.status)) check_hold(q, answer, findings);
   findings.note(Check::kEvidence, evidence_violation(problem, answer, q.units), -1);
   return findings.certificate();
 }

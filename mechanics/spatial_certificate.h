@@ -41,6 +41,8 @@ std::string_view name(SpatialCertificate::Check check);
 /// Checks an answer. An answer without a motion is accepted only if its evidence is
 /// valid; kNotRun, kOutOfIterations and kBadInput are never accepted.
 ///
+///   with a motion that is not ambiguous, quasi-static: the pads balance gravity without
+///               the pusher, by the rest and the forces given
 ///   kDynamic    the forces and rates given obey all laws of contact, and gravity and
 ///               the drive of the jaws gain more power than they take: the object falls,
 ///               whatever its inertia. Not a proof that nothing else is possible.

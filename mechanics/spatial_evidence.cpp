@@ -226,7 +226,8 @@ SpatialWrench wrench_at(const SpatialProblem& problem, const ContactPatch& patch
 }
 
 SpatialRates imbalance(const SpatialProblem& problem, const SpatialRates& rates,
-                       const SpatialForce* forces, const SpatialCertificateUnits& units) {
+                       const SpatialForce* forces, bool with_pusher,
+                       const SpatialCertificateUnits& units) {
   const JawFreedoms jaws = jaw_freedoms(problem);
   SpatialWrench sum = problem.w_g - problem.inertia * rates.head<6>();
   std::array<double, 2> jaw_sum{0.0, 0.0};
@@ -236,6 +237,7 @@ SpatialRates imbalance(const SpatialProblem& problem, const SpatialRates& rates,
   }
   for (int k = 0; k < problem.patch_count; ++k) {
     const ContactPatch& patch = problem.patch[k];
+    if (!with_pusher && !is_pad(patch)) continue;
     for (int i = patch.first; i < patch.first + patch.count; ++i) {
       sum += wrench_at(problem, patch, i, forces[i]);
       for (int j = 0; j < jaws.count && is_pad(patch); ++j) {

@@ -30,9 +30,11 @@ SeenRates rates_at(const SpatialProblem& problem, const ContactPatch& patch, int
 SpatialWrench wrench_at(const SpatialProblem& problem, const ContactPatch& patch,
                         int point, const SpatialForce& force);
 
-/// Wrench and jaw efforts that the forces leave unbalanced: scaled, 6 + jaw rates.
+/// Wrench and jaw efforts that the forces leave unbalanced, with the pusher's or without:
+/// scaled, 6 + jaw rates.
 SpatialRates imbalance(const SpatialProblem& problem, const SpatialRates& rates,
-                       const SpatialForce* forces, const SpatialCertificateUnits& units);
+                       const SpatialForce* forces, bool with_pusher,
+                       const SpatialCertificateUnits& units);
 
 /// Forces of an answer's points.
 using SpatialForceList = std::array<SpatialForce, SpatialProblem::kMaxPoints>;

@@ -177,9 +177,15 @@ class Instant {
         status = InstantStatus::kAmbiguous;
         answer_.evidence = rates_in_hand(scaled_, rates);
         report_other_forces(fall);
+      } else {  // A motion, but whether it is the only one is not known.
+        answer_.status = InstantStatus::kOutOfIterations;
+        return;
       }
     } else if (rests) {
       status = InstantStatus::kSeparated;
+    } else {
+      answer_.evidence = rates_in_hand(scaled_, search.rest_rates());
+      report_other_forces(search.rest_forces());
     }
     conclude(search, status);
   }
@@ -226,6 +232,7 @@ class Instant {
     if (options_.probe_multiplicity && search.find_other(extra, rates)) {
       status = InstantStatus::kAmbiguous;
       answer_.other = rates_in_hand(scaled_, rates);
+      answer_.evidence.setConstant(kNan);
       report_other_forces(extra);
     }
     answer_.status = status;

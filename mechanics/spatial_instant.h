@@ -59,13 +59,16 @@ struct SpatialInstant {
   double residual = kNan;  ///< natural-map residual of the solver in units (F0, V0)
   int iterations = 0;      ///< Newton steps
 
+  /// With a motion, quasi-static: the object at rest in the pads alone, which shows that
+  /// they hold gravity; not set where the pusher carries nothing anyway.
   /// kDynamic: a motion in which every contact obeys its law but gravity (and the drive
   /// of the jaws) gains more power than pads and pusher take. kAmbiguous: the same with
   /// the pads alone, so that only the pusher keeps the object from falling.
   SpatialRates evidence = SpatialRates::Constant(kNan);
   /// kAmbiguous: a second motion, if found.
   SpatialRates other = SpatialRates::Constant(kNan);
-  /// kAmbiguous: forces of `other`, or without one those of the pads in `evidence`.
+  /// Forces of `other` if there is one, else those of the pads in `evidence` (but see
+  /// `point` for kDynamic).
   std::array<SpatialForce, SpatialProblem::kMaxPoints> other_force;
   double force_low = kNan;   ///< see kNonuniqueForces: least and
   double force_high = kNan;  ///< greatest sum of the pusher's normal forces that this

@@ -259,17 +259,17 @@ class Iteration {
     return false;
   }
 
-  const ScaledSpatial& problem_;
-  bool pads_only_ = false;
-  double added_mass_ = 0.0;
-  double r_ = 1.0;
-  double e_ = 0.0;
+  SpatialForces centre_;
+  Matrix8 jacobian_ = Matrix8::Zero();
   SpatialRates v_ = SpatialRates::Zero();
   SpatialRates before_ = SpatialRates::Zero();
   SpatialRates balance_ = SpatialRates::Zero();
-  Matrix8 jacobian_ = Matrix8::Zero();
-  SpatialForces centre_;
+  const ScaledSpatial& problem_;
   SpatialForces& force_;
+  double r_ = 1.0;
+  double e_ = 0.0;
+  double added_mass_ = 0.0;
+  bool pads_only_ = false;
 };
 
 }  // namespace

@@ -106,7 +106,8 @@ bool SpatialSearch::solve_stubbornly() {
 bool SpatialSearch::approach_statics() {
   SpatialForces known;
   NewtonStart start = {.r = 3.0};
-  for (double mass = 1.0; mass > 1e-8; mass *= 0.1) {
+  double mass = 1.0;
+  for (int power = 0; power < 8; ++power, mass *= 0.1) {
     start.added_mass = mass;
     const int until = std::min(max_steps_, steps_ + kBudget);
     if (steps_ >= until) return false;
@@ -185,15 +186,15 @@ bool SpatialSearch::approach_compliance() {
 }
 
 SpatialSearch::Hold SpatialSearch::judge_hold() {
-  SpatialForces forces;
-  for (const double e : {0.0, 0.1}) {
-    NewtonStart start;
-    start.e = e;
+  const std::array<NewtonStart, 4> starts = {
+      {{}, {.e = 0.1}, {.r = 3.0, .pace = 1e-3}, {.r = 3.0, .e = 10.0}}};
+  for (NewtonStart start : starts) {
     start.pads_only = true;
     int steps = 0;
     const NewtonResult rest =
-        run_newton(problem_, start, 1e-8, kFirstBudget, forces, steps);
+        run_newton(problem_, start, 1e-8, kFirstBudget, rest_forces_, steps);
     steps_ += steps;
+    rest_rates_ = rest.v;
     if (rest.converged) return rest.v.norm() <= kHeldRate ? Hold::kHeld : Hold::kFalls;
     if (rest.runs_away) return Hold::kFalls;
   }

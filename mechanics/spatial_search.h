@@ -21,6 +21,8 @@ class SpatialSearch {
   /// What the object does in the grasp of the pads alone, quasi-statically.
   enum class Hold { kHeld, kFalls, kUnknown };
   Hold judge_hold();
+  const SpatialRates& rest_rates() const { return rest_rates_; }  ///< if kHeld
+  const SpatialForces& rest_forces() const { return rest_forces_; }
 
   /// The motion found is the object at rest in the pads, untouched by the pusher.
   bool rests_in_pads() const;
@@ -52,6 +54,8 @@ class SpatialSearch {
   int steps_ = 0;
   NewtonResult result_;
   SpatialForces forces_;
+  SpatialForces rest_forces_;
+  SpatialRates rest_rates_ = SpatialRates::Zero();
 };
 
 }  // namespace prehensile

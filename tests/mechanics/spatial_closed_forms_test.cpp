@@ -20,7 +20,7 @@ constexpr double kTight = 1e-6;
 constexpr double kRate = 0.01;
 
 SpatialInstant certified(const SpatialProblem& problem) {
-  const SpatialInstant answer = solve_spatial(problem);
+  SpatialInstant answer = solve_spatial(problem);
   const SpatialCertificate certificate = certify(problem, answer);
   EXPECT_TRUE(certificate.holds()) << name(answer.status) << ": " << told(certificate);
   return answer;

@@ -26,7 +26,7 @@ constexpr std::array kJawNames = {"coupled", "fixed jaw 1", "fixed jaw 2", "inde
 
 SpatialInstant certified(const SpatialProblem& problem,
                          const SpatialSolveOptions& options = {}) {
-  const SpatialInstant answer = solve_spatial(problem, options);
+  SpatialInstant answer = solve_spatial(problem, options);
   const SpatialCertificate certificate = certify(problem, answer);
   EXPECT_TRUE(certificate.holds()) << name(answer.status) << ": " << told(certificate);
   return answer;

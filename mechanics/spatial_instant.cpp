@@ -144,7 +144,7 @@ class Instant {
     const bool follows = last != nullptr && follow(*last, known, warm);
     bool found = search.solve_directly(follows ? &warm : nullptr);
     if (scaled_.has_inertia) {
-      found = found || search.solve_stubbornly();
+      found = found || search.solve_otherwise() || search.solve_stubbornly();
       if (found && search.result().v.norm() < kFallsFreely) {
         conclude(search, InstantStatus::kMoves);
       } else {
@@ -162,25 +162,26 @@ class Instant {
 
   void solve_quasi_static(SpatialSearch& search, bool found) {
     Hold hold = found && search.rests_in_pads() ? Hold::kHeld : search.judge_hold();
+    found = found || search.solve_otherwise();
+    if (!found && hold == Hold::kFalls && report_fall(search)) return;
     found = found || search.solve_stubbornly();
     const bool rests = found && search.rests_in_pads();
     if (rests) hold = Hold::kHeld;
     if (!found) {
-      if (hold != Hold::kHeld) report_fall(search);
+      if (hold == Hold::kUnknown) report_fall(search);
       return;
     }
     InstantStatus status = InstantStatus::kMoves;
-    if (hold != Hold::kHeld) {
-      SpatialForces fall;
-      SpatialRates rates;
-      if (search.find_fall(true, fall, rates)) {
-        status = InstantStatus::kAmbiguous;
-        answer_.evidence = rates_in_hand(scaled_, rates);
-        report_other_forces(fall);
-      } else {  // A motion, but whether it is the only one is not known.
-        answer_.status = InstantStatus::kOutOfIterations;
-        return;
-      }
+    SpatialForces fall;
+    SpatialRates rates;
+    const bool falls = hold != Hold::kHeld && search.find_fall(true, fall, rates);
+    if (!falls && hold != Hold::kHeld) hold = search.judge_hold(true);
+    if (falls) {
+      status = InstantStatus::kAmbiguous;
+      answer_.evidence = rates_in_hand(scaled_, rates);
+      report_other_forces(fall);
+    } else if (hold != Hold::kHeld) {
+      return;  // A motion, but whether it is the only one is not known.
     } else if (rests) {
       status = InstantStatus::kSeparated;
     } else {
@@ -191,13 +192,14 @@ class Instant {
   }
 
   /// No motion that the pusher has to do with: does the object fall?
-  void report_fall(SpatialSearch& search) {
+  bool report_fall(SpatialSearch& search) {
     SpatialForces fall;
     SpatialRates rates;
-    if (!search.find_fall(false, fall, rates)) return;
+    if (!search.find_fall(false, fall, rates)) return false;
     answer_.status = InstantStatus::kDynamic;
     report_points(problem_, scaled_, rates, fall, answer_);
     answer_.evidence = rates_in_hand(scaled_, rates);
+    return true;
   }
 
   /// A motion was found.

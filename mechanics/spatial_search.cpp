@@ -73,19 +73,24 @@ bool SpatialSearch::solve_directly(const NewtonStart* warm) {
   return attempt({}, kFirstBudget);
 }
 
-bool SpatialSearch::solve_stubbornly() {
+bool SpatialSearch::solve_otherwise() {
   // An instant that resists one start mostly yields to the next.
   const SpatialRates& along = problem_.pusher;
-  const std::array<NewtonStart, 7> quick = {{{.r = 3.0},
-                                             {.v = along},
-                                             {.e = 0.1},
-                                             {.r = 3.0, .e = 0.1, .pace = 30.0},
-                                             {.r = 3.0, .pace = 1e-4},
-                                             {.r = 3.0, .e = 10.0},
-                                             {.e = 10.0, .pace = 30.0}}};
-  for (const NewtonStart& start : quick) {
+  const std::array<NewtonStart, 5> starts = {{{.r = 3.0},
+                                              {.v = along},
+                                              {.e = 10.0, .pace = 30.0},
+                                              {.r = 3.0, .e = 10.0},
+                                              {.r = 3.0, .e = 0.1, .pace = 30.0}}};
+  for (const NewtonStart& start : starts) {
     if (attempt(start, kBudget)) return true;
   }
+  return false;
+}
+
+bool SpatialSearch::solve_stubbornly() {
+  const SpatialRates& along = problem_.pusher;
+  if (attempt({.e = 0.1}, kBudget)) return true;
+  if (attempt({.r = 3.0, .pace = 1e-4}, kBudget)) return true;
   if (approach_friction() || approach_compliance() || approach_statics()) return true;
   // Small paces suit a pusher that all but grazes, large ones an object that swings.
   const std::array<NewtonStart, 8> slow = {
@@ -185,10 +190,14 @@ bool SpatialSearch::approach_compliance() {
   return false;
 }
 
-SpatialSearch::Hold SpatialSearch::judge_hold() {
+SpatialSearch::Hold SpatialSearch::judge_hold(bool patiently) {
   const std::array<NewtonStart, 4> starts = {
       {{}, {.e = 0.1}, {.r = 3.0, .pace = 1e-3}, {.r = 3.0, .e = 10.0}}};
-  for (NewtonStart start : starts) {
+  // Jaws that both give way leave the object free along the grip: that is no fall.
+  const bool drifts = problem_.freedoms == 8;
+  bool ran_away = false;
+  for (std::size_t k = patiently || drifts ? 1 : 0; k < starts.size(); ++k) {
+    NewtonStart start = starts[k];
     start.pads_only = true;
     int steps = 0;
     const NewtonResult rest =
@@ -196,9 +205,10 @@ SpatialSearch::Hold SpatialSearch::judge_hold() {
     steps_ += steps;
     rest_rates_ = rest.v;
     if (rest.converged) return rest.v.norm() <= kHeldRate ? Hold::kHeld : Hold::kFalls;
-    if (rest.runs_away) return Hold::kFalls;
+    ran_away = ran_away || rest.runs_away;
+    if (ran_away && !patiently) break;
   }
-  return Hold::kUnknown;
+  return ran_away ? Hold::kFalls : Hold::kUnknown;
 }
 
 bool SpatialSearch::rests_in_pads() const {

@@ -15,12 +15,15 @@ class SpatialSearch {
   /// The first attempt; `warm` may be null.
   bool solve_directly(const NewtonStart* warm);
 
-  /// All other attempts.
+  /// Other starts; nearly all motions are among them.
+  bool solve_otherwise();
+
+  /// Everything else.
   bool solve_stubbornly();
 
   /// What the object does in the grasp of the pads alone, quasi-statically.
   enum class Hold { kHeld, kFalls, kUnknown };
-  Hold judge_hold();
+  Hold judge_hold(bool patiently = false);
   const SpatialRates& rest_rates() const { return rest_rates_; }  ///< if kHeld
   const SpatialForces& rest_forces() const { return rest_forces_; }
 

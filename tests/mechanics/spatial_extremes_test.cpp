@@ -179,7 +179,7 @@ void run(int each) {
   }
 }
 
-TEST(SpatialInstant, ExtremesEndWithEvidence) { run(24); }
+TEST(SpatialInstant, ExtremesEndWithEvidence) { run(16); }
 
 TEST(SpatialInstant, FullExtremesEndWithEvidence) { run(300); }
 

@@ -103,7 +103,7 @@ TEST(SpatialInstant, OtherContactsEndWithEvidence) {
        {"stiff foundations", {.compliance = 1e-4}},
        {"soft foundations", {.compliance = 1.0}}}};
   for (const auto& [title, range] : kinds) {
-    const Tally t = tally(range, 700, 67);
+    const Tally t = tally(range, 420, 67);
     t.print(title);
     EXPECT_EQ(t.wrong, 0);
     EXPECT_LE(t.out_of_iterations(), 2);

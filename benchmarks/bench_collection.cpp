@@ -47,7 +47,7 @@ const char* reason_of(LcpStatus status) {
     case LcpStatus::kInfeasible:
       return "no z >= 0 meets the inequalities (proof checked)";
     case LcpStatus::kRay:
-      return "every covering vector ended on a ray";
+      return "every start ended on a ray";
     case LcpStatus::kPivotLimit:
       return "out of pivots";
     case LcpStatus::kInaccurate:

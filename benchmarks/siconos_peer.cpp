@@ -89,8 +89,11 @@ double process_time_us() {
 [[noreturn]] void solve_and_tell(ForceProblem& p, SiconosSolver solver, int seconds,
                                  int pipe) {
   ::alarm(static_cast<unsigned>(seconds));
-  // The library prints to standard output.
-  if (!std::freopen("/dev/null", "w", stdout)) ::_exit(1);
+  // The library has much to say.
+  if (!std::freopen("/dev/null", "w", stdout) ||
+      !std::freopen("/dev/null", "w", stderr)) {
+    ::_exit(1);
+  }
   const auto contacts = static_cast<int>(p.mu.size());
   // Of the tolerance, which is relative to |q|, a few digits are lost on the way to ours.
   constexpr double kTolerance = 1e-10;

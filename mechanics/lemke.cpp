@@ -51,23 +51,56 @@ Scaled scaled(const MatrixXd& M, const VectorXd& q) {
   return s;
 }
 
-/// Start number 0 covers with ones, the others with numbers between 1/2 and 3/2.
-VectorXd covering_vector(Index n, int start) {
-  VectorXd d = VectorXd::Ones(n);
-  const double golden = 0.6180339887498949;
-  for (Index i = 0; start > 0 && i < n; ++i) {
-    const double turn = golden * static_cast<double>((i + 1) * (2 * start - 1));
-    d[i] = 0.5 + (turn - std::floor(turn));
-  }
-  return d;
+/// Where a search begins: the covering vector, and the pairs whose z takes the place of w
+/// in the first basis.
+struct Start {
+  VectorXd cover;
+  std::vector<Index> swapped;
+};
+
+double golden_share(Index number) {
+  const double turn = 0.6180339887498949 * static_cast<double>(number);
+  return turn - std::floor(turn);
 }
 
-/// The dictionary w - M z - d z0 = q. Columns: w_i, then z_i, then z0.
+/// Pairs {i} or {i, k} that may be swapped without dividing by little.
+std::vector<std::vector<Index>> exchangeable(const MatrixXd& M) {
+  constexpr double kLarge = 0.05;  // entries are about 1
+  std::vector<std::vector<Index>> sets;
+  for (Index i = 0; i < M.rows(); ++i) {
+    if (std::abs(M(i, i)) > kLarge) sets.push_back({i});
+    for (Index k = 0; k < i; ++k) {
+      const double determinant = M(i, i) * M(k, k) - M(i, k) * M(k, i);
+      if (std::abs(determinant) > kLarge) sets.push_back({k, i});
+    }
+  }
+  return sets;
+}
+
+/// Number 0 starts from all w and covers with ones; odd numbers cover with numbers
+/// between 1/2 and 3/2, even ones start from a basis in which a pair or two are swapped.
+Start start_of(const MatrixXd& M, int number) {
+  const Index n = M.rows();
+  Start start{VectorXd::Ones(n), {}};
+  for (Index i = 0; number % 2 == 1 && i < n; ++i) {
+    start.cover[i] = 0.5 + golden_share((i + 1) * number);
+  }
+  if (number == 0 || number % 2 == 1) return start;
+  const std::vector<std::vector<Index>> sets = exchangeable(M);
+  if (sets.empty()) return start;
+  const double share = golden_share(number / 2);
+  start.swapped =
+      sets[static_cast<std::size_t>(share * static_cast<double>(sets.size()))];
+  return start;
+}
+
+/// The dictionary w - M z - d z0 = q. Columns: w_i, then z_i, then z0. With swapped pairs
+/// in the first basis B, z0 enters with B d, and ties are broken by rows of inverse * B.
 class Pivoting {
  public:
   enum class End { kAnswer, kRay, kPivotLimit };
 
-  Pivoting(const Scaled& problem, VectorXd cover);
+  Pivoting(const Scaled& problem, Start start);
 
   End run(int max_pivots);
   int pivots() const { return pivots_; }
@@ -90,30 +123,38 @@ class Pivoting {
   }
 
   const Scaled& problem_;
-  VectorXd cover_;
+  Start start_;
   Index n_;
   std::vector<Index> basis_;
-  MatrixXd inverse_;  // of the basis
-  VectorXd value_;    // of the basic variables
-  VectorXd change_;   // they fall by this much per unit of the entering variable
+  MatrixXd first_basis_;   // empty: the identity
+  VectorXd cover_column_;  // of z0
+  MatrixXd inverse_;       // of the basis
+  VectorXd value_;         // of the basic variables
+  VectorXd change_;        // they fall by this much per unit of the entering variable
   Index entering_;
   int pivots_ = 0;
 };
 
-Pivoting::Pivoting(const Scaled& problem, VectorXd cover)
+Pivoting::Pivoting(const Scaled& problem, Start start)
     : problem_(problem),
-      cover_(std::move(cover)),
+      start_(std::move(start)),
       n_(problem.q.size()),
+      cover_column_(-start_.cover),
       inverse_(MatrixXd::Identity(n_, n_)),
       value_(problem.q),
       entering_(2 * n_) {
   for (Index i = 0; i < n_; ++i) basis_.push_back(i);
+  if (start_.swapped.empty()) return;
+  for (const Index i : start_.swapped) basis_[i] = i + n_;
+  first_basis_ = basis_matrix();
+  cover_column_ = -first_basis_ * start_.cover;
+  factorise();
 }
 
 VectorXd Pivoting::column(Index variable) const {
   if (variable < n_) return VectorXd::Unit(n_, variable);
   if (variable < 2 * n_) return -problem_.M.col(variable - n_);
-  return -cover_;
+  return cover_column_;
 }
 
 MatrixXd Pivoting::basis_matrix() const {
@@ -130,7 +171,7 @@ void Pivoting::factorise() {
 /// The row in which z0 enters: all others stay lexicographically positive. Of equal rows
 /// the last is the least, because of the identity beside them.
 Index Pivoting::first_row() const {
-  const VectorXd ratio = value_.cwiseQuotient(cover_);
+  const VectorXd ratio = value_.cwiseQuotient(start_.cover);
   const double least = ratio.minCoeff();
   Index row = n_ - 1;
   while (ratio[row] > least + kTie) --row;
@@ -168,7 +209,12 @@ Index Pivoting::leaving_row() const {
     if (basis_[i] == 2 * n_) return i;
   }
   for (Index k = 0; k < n_ && rows.size() > 1; ++k) {
-    keep_least([&](Index i) { return inverse_(i, k); });
+    if (start_.swapped.empty()) {
+      keep_least([&](Index i) { return inverse_(i, k); });
+    } else {
+      const VectorXd column_k = inverse_ * first_basis_.col(k);
+      keep_least([&](Index i) { return column_k[i]; });
+    }
   }
   return rows.front();
 }
@@ -189,9 +235,9 @@ void Pivoting::pivot(Index row) {
 }
 
 Pivoting::End Pivoting::run(int max_pivots) {
-  if (n_ == 0 || problem_.q.minCoeff() >= 0.0) return End::kAnswer;
+  if (n_ == 0 || value_.minCoeff() >= 0.0) return End::kAnswer;
   Index row = first_row();
-  change_ = column(entering_);
+  change_ = -start_.cover;
   while (pivots_ < max_pivots) {
     const Index leaving = basis_[row];
     pivot(row);
@@ -260,7 +306,7 @@ bool is_sound(const MatrixXd& M, const VectorXd& q) {
 bool try_start(const MatrixXd& M, const VectorXd& q, const Scaled& s, int start,
                const LcpOptions& options, LcpSolution& best) {
   const Index n = q.size();
-  Pivoting pivoting(s, covering_vector(n, start));
+  Pivoting pivoting(s, start_of(s.M, start));
   const int limit =
       options.max_pivots > 0 ? options.max_pivots : 1000 + 50 * static_cast<int>(n);
   const Pivoting::End end = pivoting.run(limit);

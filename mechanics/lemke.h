@@ -6,7 +6,7 @@
 /// mathematical programming", 1965) and the lexicographic rule, so that ties, which
 /// statically indeterminate contact makes all the time, cannot make it cycle. It answers
 /// whenever M is copositive-plus and the rows can be met at all, or M is a P-matrix; on
-/// other matrices it may end on a ray, and another covering vector may still succeed.
+/// other matrices it may end on a ray, and another start may still succeed.
 ///
 /// A reference, dense and on the heap: cold path.
 #pragma once
@@ -21,7 +21,7 @@ enum class LcpStatus {
   kNotRun,
   kSolved,      ///< within the tolerance, judged from M, q and z alone
   kInfeasible,  ///< no z >= 0 with M z + q >= 0 exists: `ray` is the proof
-  kRay,         ///< every covering vector led to a ray: nothing is proved
+  kRay,         ///< every start led to a ray: nothing is proved
   kPivotLimit,
   kInaccurate,  ///< pivoting ended, but rounding spoilt the answer; z is what is left
   kBadInput,    ///< shapes that do not fit, numbers that are not finite
@@ -29,7 +29,8 @@ enum class LcpStatus {
 
 struct LcpOptions {
   int max_pivots = 0;  ///< per start; 0: 1000 + 50 rows
-  int starts = 1;      ///< covering vectors tried: all ones (after scaling), then others
+  int starts = 1;      ///< tried in turn: covering by ones (after scaling), then by other
+                       ///< vectors, or from other first bases
   double tolerance = 1e-9;  ///< of `relative_residual`
 };
 

@@ -76,6 +76,24 @@ std::vector<double> starting_point(const SpatialProblem& q, const LinearCone& co
   return z;
 }
 
+/// With some inertia the search hardly ever fails. Its pattern is that of the answer
+/// asked for once the inertia is small enough; where nothing holds the object, its rates
+/// grow without end instead, and nothing passes.
+void ease_with_inertia(const SpatialProblem& problem, const LinearCone& cone,
+                       const SpatialReferenceOptions& options, SpatialReference& best) {
+  const ComplementarityProblem rows = complementarity_of(cone);
+  for (const double inertia : {1e-2, 1e-4, 1e-6}) {
+    if (best.residual <= options.gate) return;
+    LinearCone eased = cone;
+    eased.inertia.diagonal().array() += inertia;
+    const PivotingResult found =
+        solve_by_pivoting(complementarity_of(eased), {.starts = options.starts});
+    best.steps += found.pivots;
+    if (found.z.empty()) continue;
+    offer(problem, cone, options.generators, sharpened(rows, found.z), best);
+  }
+}
+
 }  // namespace
 
 SpatialReference solve_spatial_pivoting(const SpatialProblem& problem,
@@ -94,6 +112,7 @@ SpatialReference solve_spatial_pivoting(const SpatialProblem& problem,
     return best;
   }
   if (!found.z.empty()) offer(problem, cone, options.generators, found.z, best);
+  ease_with_inertia(problem, cone, options, best);
   set_status(options.gate, best);
   return best;
 }

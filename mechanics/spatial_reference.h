@@ -27,7 +27,7 @@ enum class SpatialReferenceStatus {
 
 struct SpatialReferenceOptions {
   int generators = 8;        ///< g of paper eq. (2): even, 4..64
-  int starts = 8;            ///< covering vectors or starting points tried
+  int starts = 8;            ///< of the pivoting or of the interior point, tried in turn
   double gate = 1e-7;        ///< largest accepted residual in units (F0, V0)
   int max_iterations = 500;  ///< of the interior-point method, per start
 };

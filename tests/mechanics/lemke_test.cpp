@@ -223,7 +223,7 @@ TEST(Lemke, FeasibleWithoutAnswerEndsOnARay) {
 TEST(Lemke, ArbitraryMatricesNeverGiveAWrongVerdict) {
   Random random(7);
   int solved = 0;
-  int helped = 0;  // by further covering vectors
+  int helped = 0;  // by further starts
   for (int trial = 0; trial < 2000; ++trial) {
     const int n = 1 + random.below(6);
     const MatrixXd M = random_matrix(random, n, n);
@@ -242,6 +242,28 @@ TEST(Lemke, ArbitraryMatricesNeverGiveAWrongVerdict) {
   }
   EXPECT_GT(solved, 500);
   EXPECT_GT(helped, 0);
+}
+
+// A bimatrix game (all entries of M >= 0): the first pivot of every covering vector ends
+// on a ray, but from another first basis the equilibrium is found.
+TEST(Lemke, OtherFirstBasesFindAnEquilibrium) {
+  Random random(10);
+  int solved = 0;
+  const int games = 300;
+  for (int trial = 0; trial < games; ++trial) {
+    const int m = 1 + random.below(4);
+    const int k = 1 + random.below(4);
+    MatrixXd M = MatrixXd::Zero(m + k, m + k);
+    for (double& cost : M.topRightCorner(m, k).reshaped()) cost = random.in(0.1, 1.0);
+    for (double& cost : M.bottomLeftCorner(k, m).reshaped()) cost = random.in(0.1, 1.0);
+    const VectorXd q = VectorXd::Constant(m + k, -1.0);
+    EXPECT_NE(solve_lcp(M, q).status, LcpStatus::kInfeasible);
+    const LcpSolution s = solve_lcp(M, q, {.starts = 40});
+    if (s.status != LcpStatus::kSolved) continue;
+    ++solved;
+    expect_answer(M, q, s);
+  }
+  EXPECT_GT(solved, games * 9 / 10);
 }
 
 TEST(Lemke, LimitsAndBadInput) {

@@ -90,7 +90,10 @@ void check_point(const Question& q, const ContactPatch& patch, int index,
   const double length = opposed.norm();
   if (length > bound) opposed *= bound / length;
   findings.note(Check::kSlipDirection, (friction - opposed).norm(), index);
-  findings.note(Check::kDissipation, friction.dot(slip), index);
+  // In a fall rates are large, in a wedge forces are, and rounding with them.
+  const double gained =
+      friction.dot(slip) / std::max({1.0, slip.norm(), friction.norm()});
+  findings.note(Check::kDissipation, gained, index);
 }
 
 /// All laws of contact for these rates and forces, with the pusher or without.

@@ -168,7 +168,8 @@ class Instant {
     const bool rests = found && search.rests_in_pads();
     if (rests) hold = Hold::kHeld;
     if (!found) {
-      if (hold == Hold::kUnknown) report_fall(search);
+      // Pads that hold an object at rest may lose it while it is pushed.
+      if (hold != Hold::kFalls) report_fall(search);
       return;
     }
     InstantStatus status = InstantStatus::kMoves;
@@ -219,7 +220,7 @@ class Instant {
     report_motion(problem_, scaled_, search.result().v, search.forces(), answer_);
     if (status == InstantStatus::kSeparated) status = judge_rest(scaled_, answer_);
     const bool stands = status == InstantStatus::kMoves && !scaled_.has_inertia &&
-                        pads_stick(scaled_, answer_);
+                        search.is_at_rest() && pads_stick(scaled_, answer_);
     if (stands) status = InstantStatus::kHolds;
     if ((status == InstantStatus::kMoves || stands) &&
         has_free_loads(problem_, answer_)) {

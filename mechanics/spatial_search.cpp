@@ -9,6 +9,7 @@ constexpr int kFirstBudget = 150;
 constexpr int kBudget = 200;
 constexpr double kStiff = 1e-4;     ///< compliance below which continuation comes first
 constexpr double kHeldRate = 10.0;  ///< rates of a held object, as foundations yield
+constexpr double kAtRest = 1e-7;    ///< rates of an object at rest on rigid pads
 constexpr double kIdle = 1e-9;      ///< a pusher that carries less carries nothing
 constexpr double kFallRate = 10.0;  ///< rates that no pusher or foundation causes
 constexpr double kFallTolerance = 1e-8;  ///< enough for evidence
@@ -93,8 +94,11 @@ bool SpatialSearch::solve_stubbornly() {
   if (attempt({.r = 3.0, .pace = 1e-4}, kBudget)) return true;
   if (approach_friction() || approach_compliance() || approach_statics()) return true;
   // Small paces suit a pusher that all but grazes, large ones an object that swings.
-  const std::array<NewtonStart, 8> slow = {
-      {{.r = 30.0, .e = 10.0, .pace = 30.0},
+  const std::array<NewtonStart, 11> slow = {
+      {{.r = 3.0, .pace = 30.0},
+       {.r = 3.0, .pace = 1e3},
+       {.v = along, .r = 3.0, .e = 10.0},
+       {.r = 30.0, .e = 10.0, .pace = 30.0},
        {.r = 3.0, .pace = 1e-2},
        {.r = 3.0, .pace = 1e-6},
        {.r = 3.0, .e = 0.1, .pace = 0.1},
@@ -211,6 +215,14 @@ SpatialSearch::Hold SpatialSearch::judge_hold(bool patiently) {
   return ran_away ? Hold::kFalls : Hold::kUnknown;
 }
 
+bool SpatialSearch::is_at_rest() const {
+  double yield = kAtRest;
+  for (int k = 0; k < problem_.patch_count; ++k) {
+    yield = std::max(yield, 5.0 * problem_.patch[k].R);
+  }
+  return result_.v.norm() <= yield;
+}
+
 bool SpatialSearch::rests_in_pads() const {
   bool idle = true;
   for (int k = 0; k < problem_.patch_count; ++k) {
@@ -219,7 +231,7 @@ bool SpatialSearch::rests_in_pads() const {
       if (patch.body == ContactBody::kPusher && forces_.n[j] > kIdle) idle = false;
     }
   }
-  return idle && result_.v.norm() <= kHeldRate;
+  return idle && is_at_rest();
 }
 
 bool SpatialSearch::find_fall(bool pads_only, SpatialForces& forces,

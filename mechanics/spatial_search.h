@@ -27,6 +27,9 @@ class SpatialSearch {
   const SpatialRates& rest_rates() const { return rest_rates_; }  ///< if kHeld
   const SpatialForces& rest_forces() const { return rest_forces_; }
 
+  /// The motion found is slower than foundations may yield.
+  bool is_at_rest() const;
+
   /// The motion found is the object at rest in the pads, untouched by the pusher.
   bool rests_in_pads() const;
 

@@ -23,6 +23,7 @@ if(PREHENSILE_APPS)
   target_link_libraries(prehensile_yaml INTERFACE yaml-cpp)
   find_package(nlohmann_json 3.11 REQUIRED)
   find_package(CLI11 REQUIRED)
+  find_package(ZLIB REQUIRED)
 endif()
 
 if(PREHENSILE_TESTS)

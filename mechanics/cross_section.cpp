@@ -152,7 +152,9 @@ bool is_jammed(CrossSectionInstant& answer, const Balance& balance, double sheet
 
 bool well_posed(const CrossSectionModel& model, const CrossSectionDrive& drive) {
   const auto finite_from_zero = [](double x) { return std::isfinite(x) && x >= 0.0; };
-  return std::isfinite(model.radius) && model.radius > 0.0 &&
+  const bool has_one_jaw_rate =
+      model.jaw_mode != JawMode::kIndependent && model.jaw_mode != JawMode::kLocked;
+  return has_one_jaw_rate && std::isfinite(model.radius) && model.radius > 0.0 &&
          finite_from_zero(model.grip_force) && finite_from_zero(model.friction[0]) &&
          finite_from_zero(model.friction[1]) && finite_from_zero(drive.mu) &&
          std::isfinite(drive.weight) && std::isfinite(drive.sheet_rate) &&

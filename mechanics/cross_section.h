@@ -102,7 +102,8 @@ struct CrossSectionInstant {
   CrossSectionForces forces() const { return {normal_force, tangential_force}; }
 };
 
-/// All solutions in the quasi-static limit. No heap, no exceptions.
+/// All solutions in the quasi-static limit. No heap, no exceptions. kBadInput for jaws
+/// that are locked or driven independently: they do not have one jaw rate.
 CrossSectionInstant solve_cross_section(const CrossSectionModel& model,
                                         const CrossSectionDrive& drive) noexcept;
 

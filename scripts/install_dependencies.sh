@@ -9,7 +9,7 @@ packages=(
   libompl-dev libboost-serialization-dev          # sampling planners, and what their package
   libboost-filesystem-dev libboost-system-dev     # needs but does not ask for
   libnlopt-cxx-dev coinor-libipopt-dev            # optimisation
-  libyaml-cpp-dev nlohmann-json3-dev libcli11-dev # files and command line
+  libyaml-cpp-dev nlohmann-json3-dev libcli11-dev zlib1g-dev # files and command line
   libfccp-dev                                     # benchmarks only: tables of real pushes
   libgtest-dev libvalijson-dev                    # tests only
 )

@@ -49,6 +49,7 @@ std::vector<Room> rooms() {
       room("^yaml-cpp/", "^io/.*"),
       room("^nlohmann/", "^(io|apps)/.*"),
       room("^CLI/", "^apps/.*"),
+      room("^zlib\\.h$", "^io/gzip\\.cpp$"),
       room("^(iostream|fstream)$", "^(io|apps)/.*"),
       room("^random$", "^$"),
       room("^chrono$", "^planner/.*"),

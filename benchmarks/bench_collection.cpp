@@ -1,0 +1,224 @@
+/// The pivoting solver on the public collection of complementarity problems that the
+/// Siconos project keeps for its own: one CSV line per file, refusals included.
+///
+/// FOLDER holds the folders lcp, mlcp, fc2d, fc3d (any of them). Linear and mixed
+/// problems are solved: a residual of at most 1e-8, or refused with the reason. Friction
+/// problems are listed with the number of bodies that their matrix has room for; they are
+/// of another kind than ours (many bodies, given inertia), so no solver here takes them.
+/// Any other folder is named as out of scope.
+///
+/// Usage: bench_collection FOLDER [-o FILE]
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <Eigen/QR>
+
+#include "benchmarks/measure.h"
+#include "io/friction_collection.h"
+#include "mechanics/mixed_lemke.h"
+
+namespace prehensile::benchmarks {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kAccepted = 1e-8;
+constexpr LcpOptions kPatient{.starts = 20};
+
+struct Run {
+  std::string kind;
+  std::string file;
+  int rows = 0;
+  int contacts = 0;
+  std::string verdict;  // solved, refused, listed, not read, out of scope
+  std::string reason;
+  double residual = std::numeric_limits<double>::quiet_NaN();
+  int pivots = 0;
+  double time_us = std::numeric_limits<double>::quiet_NaN();
+};
+
+const char* reason_of(LcpStatus status) {
+  switch (status) {
+    case LcpStatus::kSolved:
+      return "";
+    case LcpStatus::kInfeasible:
+      return "no z >= 0 meets the inequalities (proof checked)";
+    case LcpStatus::kRay:
+      return "every start ended on a ray";
+    case LcpStatus::kPivotLimit:
+      return "out of pivots";
+    case LcpStatus::kInaccurate:
+      return "spoilt by rounding";
+    case LcpStatus::kNotRun:
+    case LcpStatus::kBadInput:
+      break;
+  }
+  return "bad input";
+}
+
+void set_verdict(LcpStatus status, double residual, Run& run) {
+  run.residual = residual;
+  run.reason = reason_of(status);
+  if (status == LcpStatus::kSolved && !(residual <= kAccepted)) {
+    run.reason = "residual above 1e-8";
+  }
+  run.verdict = run.reason.empty() ? "solved" : "refused";
+}
+
+void run_linear(const std::string& text, Run& run) {
+  const LinearComplementarityFile problem = parse_linear_complementarity(text, run.file);
+  run.rows = static_cast<int>(problem.q.size());
+  LcpSolution found;
+  run.time_us = time_us([&] { found = solve_lcp(problem.M, problem.q, kPatient); }, 3);
+  run.pivots = found.pivots;
+  set_verdict(found.status, found.residual, run);
+}
+
+void run_mixed(const std::string& text, Run& run) {
+  const MixedComplementarityFile file = parse_mixed_complementarity(text, run.file);
+  run.rows = static_cast<int>(file.q.size());
+  ComplementarityProblem problem;
+  problem.variables = run.rows;
+  for (int i = 0; i < run.rows; ++i) {
+    problem.add_row(file.complementary[i] ? i : ComplementarityProblem::kEquality,
+                    file.q[i]);
+    for (int k = 0; k < run.rows; ++k) problem.add(i, k, file.M(i, k));
+  }
+  PivotingResult found;
+  run.time_us = time_us([&] { found = solve_by_pivoting(problem, kPatient); }, 3);
+  run.pivots = found.pivots;
+  set_verdict(found.status, found.residual, run);
+}
+
+/// W = H M^-1 H^T has as many dimensions as the bodies have freedoms.
+void list_friction(const std::string& text, Run& run) {
+  const FrictionProblemFile problem = parse_friction_problem(text, run.file);
+  run.rows = static_cast<int>(problem.q.size());
+  run.contacts = problem.contacts;
+  const auto rank = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(problem.W).rank();
+  const int freedoms = problem.dimension == 3 ? 6 : 3;
+  const bool one_body = rank <= freedoms;
+  run.verdict = "listed";
+  run.reason = "friction problem of " + std::to_string(rank) + " freedoms" +
+               (one_body ? " (one body)" : "");
+}
+
+Run run_file(const std::string& kind, const fs::path& file) {
+  Run run;
+  run.kind = kind;
+  run.file = file.filename().string();
+  try {
+    const std::string text = read_collection_text(file);
+    if (kind == "lcp") {
+      run_linear(text, run);
+    } else if (kind == "mlcp") {
+      run_mixed(text, run);
+    } else {
+      list_friction(text, run);
+    }
+  } catch (const BadInput& bad) {
+    run.verdict = "not read";
+    run.reason = bad.what();
+  }
+  return run;
+}
+
+bool is_known(const std::string& kind) {
+  return kind == "lcp" || kind == "mlcp" || kind == "fc2d" || kind == "fc3d";
+}
+
+/// Sorted by name; nothing hidden.
+std::vector<fs::path> entries(const fs::path& folder, bool folders) {
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().filename().string().starts_with('.')) continue;
+    if (entry.is_directory() == folders) found.push_back(entry.path());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::vector<Run> run_folder(const fs::path& root) {
+  std::vector<Run> runs;
+  for (const fs::path& folder : entries(root, true)) {
+    const std::string kind = folder.filename().string();
+    if (!is_known(kind)) {
+      runs.push_back({.kind = kind,
+                      .file = kind,
+                      .verdict = "out of scope",
+                      .reason = "not lcp, mlcp, fc2d or fc3d"});
+      continue;
+    }
+    for (const fs::path& file : entries(folder, false)) {
+      runs.push_back(run_file(kind, file));
+    }
+  }
+  return runs;
+}
+
+void write_csv(const std::vector<Run>& runs, std::FILE* out) {
+  std::fputs(
+      "kind,file,rows,contacts,verdict,residual,pivots,time_us,reason,compiler,cpu\n",
+      out);
+  const std::string compiler = field(compiler_name());
+  const std::string cpu = field(cpu_name());
+  for (const Run& run : runs) {
+    std::string reason = field(run.reason);
+    std::replace(reason.begin(), reason.end(), '\n', ' ');
+    std::fprintf(out, "%s,%s,%d,%d,%s,%.3g,%d,%.4g,%s,%s,%s\n", field(run.kind).c_str(),
+                 field(run.file).c_str(), run.rows, run.contacts, run.verdict.c_str(),
+                 run.residual, run.pivots, run.time_us, reason.c_str(), compiler.c_str(),
+                 cpu.c_str());
+  }
+}
+
+void write_table(const std::vector<Run>& runs, std::FILE* out) {
+  std::fprintf(out, "%-6s%-36s%6s%6s  %-13s%10s%8s%11s  %s\n", "kind", "file", "rows",
+               "cont.", "verdict", "residual", "pivots", "us", "reason");
+  std::vector<std::pair<std::string, int>> counts;
+  for (const Run& run : runs) {
+    std::fprintf(out, "%-6s%-36s%6d%6d  %-13s%10.1e%8d%11.1f  %s\n", run.kind.c_str(),
+                 run.file.c_str(), run.rows, run.contacts, run.verdict.c_str(),
+                 run.residual, run.pivots, run.time_us, run.reason.c_str());
+    const std::string key = run.kind + " " + run.verdict;
+    const auto known = std::find_if(counts.begin(), counts.end(), [&](const auto& count) {
+      return count.first == key;
+    });
+    if (known == counts.end()) {
+      counts.emplace_back(key, 1);
+    } else {
+      ++known->second;
+    }
+  }
+  for (const auto& [key, count] : counts) {
+    std::fprintf(out, "%s: %d\n", key.c_str(), count);
+  }
+}
+
+int run(int count, char** arguments) {
+  const bool writes = count == 4 && std::string(arguments[2]) == "-o";
+  if ((count != 2 && !writes) || !fs::is_directory(arguments[1])) {
+    std::fputs("usage: bench_collection FOLDER [-o FILE]\n", stderr);
+    return 2;
+  }
+  std::FILE* const out = writes ? std::fopen(arguments[3], "w") : stdout;
+  if (!out) {
+    std::fprintf(stderr, "cannot write %s\n", arguments[3]);
+    return 2;
+  }
+  const std::vector<Run> runs = run_folder(arguments[1]);
+  write_csv(runs, out);
+  if (writes) std::fclose(out);
+  write_table(runs, stderr);
+  return 0;
+}
+
+}  // namespace
+}  // namespace prehensile::benchmarks
+
+int main(int count, char** arguments) {
+  return prehensile::benchmarks::run(count, arguments);
+}

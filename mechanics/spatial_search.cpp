@@ -1,0 +1,350 @@
+#include "mechanics/spatial_search.h"
+
+#include <algorithm>
+
+namespace prehensile {
+namespace {
+
+constexpr int kFirstBudget = 150;
+constexpr int kBudget = 200;
+constexpr double kStiff = 1e-4;     ///< compliance below which continuation comes first
+constexpr double kHeldRate = 10.0;  ///< rates of a held object, as foundations yield
+constexpr double kAtRest = 1e-7;    ///< rates of an object at rest on rigid pads
+constexpr double kIdle = 1e-9;      ///< a pusher that carries less carries nothing
+constexpr double kFallRate = 10.0;  ///< rates that no pusher or foundation causes
+constexpr double kFallTolerance = 1e-8;  ///< enough for evidence
+constexpr double kOtherMotion = 1e-5;
+constexpr double kJamForce = 1e3;     ///< forces that call for a second look
+constexpr double kJamBalance = 1e-7;  ///< imbalance of unit forces that counts as none
+
+double least_compliance(const ScaledSpatial& problem) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < problem.patch_count; ++k) {
+    if (problem.patch[k].R > 0.0) least = std::min(least, problem.patch[k].R);
+  }
+  return least;
+}
+
+/// All foundations at least this soft.
+void soften(const ScaledSpatial& problem, double R, ScaledSpatial& softer) {
+  for (int k = 0; k < problem.patch_count; ++k) {
+    const double own = problem.patch[k].R;
+    softer.patch[k].R = own > 0.0 ? std::max(own, R) : 0.0;
+  }
+}
+
+/// Gravity and the drive of the jaws gain more power than pads and pusher (seen at rest)
+/// take, by a margin.
+bool gains(const ScaledSpatial& problem, const SpatialRates& v,
+           const SpatialForces& forces, bool pads_only) {
+  double gain = problem.f.dot(v);
+  double pusher_takes = 0.0;
+  for (int k = 0; k < problem.patch_count; ++k) {
+    const ScaledPatch& patch = problem.patch[k];
+    const LocalRates y = patch.local_rates(v);
+    double power = 0.0;
+    for (int j = patch.first; j < patch.first + patch.count; ++j) {
+      const double a = problem.a[j];
+      const double b = problem.b[j];
+      power += forces.n[j] * (y[0] + b * y[1] - a * y[2]) +
+               forces.t[j] * (y[3] - b * y[5]) + forces.o[j] * (y[4] + a * y[5]);
+      if (patch.soft) power += forces.s[j] * patch.e * y[5];
+    }
+    if (patch.body != ContactBody::kPusher) {
+      gain += power;
+    } else if (!pads_only) {
+      pusher_takes -= power;
+    }
+  }
+  return gain > std::max(0.0, pusher_takes) + 1e-8 * v.norm();
+}
+
+}  // namespace
+
+bool SpatialSearch::attempt(const NewtonStart& start, int budget) {
+  const int last = std::min(max_steps_, steps_ + budget);
+  if (steps_ >= last) return false;
+  result_ = run_newton(problem_, start, tolerance_, last, forces_, steps_);
+  return result_.converged;
+}
+
+bool SpatialSearch::solve_directly(const NewtonStart* warm) {
+  if (warm != nullptr && attempt(*warm, 40)) return true;
+  if (least_compliance(problem_) < kStiff) return approach_compliance();
+  return attempt({}, kFirstBudget);
+}
+
+bool SpatialSearch::solve_otherwise() {
+  // An instant that resists one start mostly yields to the next.
+  const SpatialRates& along = problem_.pusher;
+  const std::array<NewtonStart, 5> starts = {{{.r = 3.0},
+                                              {.v = along},
+                                              {.e = 10.0, .pace = 30.0},
+                                              {.r = 3.0, .e = 10.0},
+                                              {.r = 3.0, .e = 0.1, .pace = 30.0}}};
+  for (const NewtonStart& start : starts) {
+    if (attempt(start, kBudget)) return true;
+  }
+  return false;
+}
+
+bool SpatialSearch::solve_stubbornly() {
+  const SpatialRates& along = problem_.pusher;
+  if (attempt({.e = 0.1}, kBudget)) return true;
+  if (attempt({.r = 3.0, .pace = 1e-4}, kBudget)) return true;
+  if (approach_friction() || approach_compliance() || approach_statics()) return true;
+  // Small paces suit a pusher that all but grazes, large ones an object that swings.
+  const std::array<NewtonStart, 11> slow = {
+      {{.r = 3.0, .pace = 30.0},
+       {.r = 3.0, .pace = 1e3},
+       {.v = along, .r = 3.0, .e = 10.0},
+       {.r = 30.0, .e = 10.0, .pace = 30.0},
+       {.r = 3.0, .pace = 1e-2},
+       {.r = 3.0, .pace = 1e-6},
+       {.r = 3.0, .e = 0.1, .pace = 0.1},
+       {.r = 30.0, .pace = 30.0},
+       {.v = along, .r = 3.0, .e = 10.0, .pace = 3.0},
+       {.r = 0.1, .e = 1.0, .pace = 0.03},
+       {.v = along, .r = 0.03, .e = 0.1}}};
+  for (const NewtonStart& start : slow) {
+    if (attempt(start, 2 * kBudget)) return true;
+  }
+  return false;
+}
+
+bool SpatialSearch::approach_statics() {
+  SpatialForces known;
+  NewtonStart start = {.r = 3.0};
+  double mass = 1.0;
+  for (int power = 0; power < 8; ++power, mass *= 0.1) {
+    start.added_mass = mass;
+    const int until = std::min(max_steps_, steps_ + kBudget);
+    if (steps_ >= until) return false;
+    result_ = run_newton(problem_, start, 1e-6, until, forces_, steps_);
+    if (!result_.converged) return false;
+    known = forces_;
+    start = {.v = result_.v, .forces = &known};
+  }
+  return attempt(start, kBudget);
+}
+
+bool SpatialSearch::approach_friction() {
+  double most = 0.0;
+  for (int k = 0; k < problem_.patch_count; ++k) {
+    most = std::max(most, problem_.patch[k].mu);
+  }
+  ScaledSpatial easier = problem_;
+  SpatialForces known;
+  NewtonStart start = {.r = 3.0};
+  double level = std::min(0.3, 0.3 * most);
+  double known_level = 0.0;
+  double factor = 1.5;
+  for (int trial = 0; trial < 40; ++trial) {
+    const bool last = level >= most;
+    for (int k = 0; k < problem_.patch_count; ++k) {
+      easier.patch[k].mu = std::min(problem_.patch[k].mu, level);
+    }
+    const int until = std::min(max_steps_, steps_ + 100);
+    if (steps_ >= until) return false;
+    result_ = run_newton(easier, start, last ? tolerance_ : 1e-5, until, forces_, steps_);
+    if (result_.converged) {
+      if (last) return true;
+      known = forces_;
+      known_level = level;
+      start = {.v = result_.v, .forces = &known, .r = 0.03};
+      factor = std::min(1.5, factor * factor);
+    } else {
+      if (known_level == 0.0) return false;
+      factor = std::sqrt(factor);
+      if (factor < 1.001) return false;
+    }
+    level = std::min(most, known_level * factor);
+  }
+  return false;
+}
+
+bool SpatialSearch::approach_compliance() {
+  const double target = least_compliance(problem_);
+  if (!std::isfinite(target)) return false;
+  ScaledSpatial softer = problem_;
+  SpatialForces known;
+  NewtonStart start = {.r = 3.0};
+  double known_R = 0.0;
+  double R = std::max(1e-2, target);
+  double factor = 0.1;
+  for (int trial = 0; trial < 40; ++trial) {
+    const bool last = R <= target;
+    soften(problem_, R, softer);
+    const int until = std::min(max_steps_, steps_ + (known_R > 0.0 ? 80 : kBudget));
+    if (steps_ >= until) return false;
+    result_ = run_newton(softer, start, last ? tolerance_ : 1e-6, until, forces_, steps_);
+    if (result_.converged) {
+      if (last) return true;
+      known = forces_;
+      known_R = R;
+      start = {.v = result_.v, .forces = &known, .r = 0.03};
+      factor = std::max(0.1, factor * factor);
+    } else {
+      if (known_R == 0.0) return false;
+      factor = std::sqrt(factor);
+      if (factor > 0.98) return false;
+    }
+    R = std::max(target, known_R * factor);
+  }
+  return false;
+}
+
+SpatialSearch::Hold SpatialSearch::judge_hold(bool patiently) {
+  const std::array<NewtonStart, 4> starts = {
+      {{}, {.e = 0.1}, {.r = 3.0, .pace = 1e-3}, {.r = 3.0, .e = 10.0}}};
+  // Jaws that both give way leave the object free along the grip: that is no fall.
+  const bool drifts = problem_.freedoms == 8;
+  bool ran_away = false;
+  for (std::size_t k = patiently || drifts ? 1 : 0; k < starts.size(); ++k) {
+    NewtonStart start = starts[k];
+    start.pads_only = true;
+    int steps = 0;
+    const NewtonResult rest =
+        run_newton(problem_, start, 1e-8, kFirstBudget, rest_forces_, steps);
+    steps_ += steps;
+    rest_rates_ = rest.v;
+    if (rest.converged) return rest.v.norm() <= kHeldRate ? Hold::kHeld : Hold::kFalls;
+    ran_away = ran_away || rest.runs_away;
+    if (ran_away && !patiently) break;
+  }
+  return ran_away ? Hold::kFalls : Hold::kUnknown;
+}
+
+bool SpatialSearch::is_at_rest() const {
+  double yield = kAtRest;
+  for (int k = 0; k < problem_.patch_count; ++k) {
+    yield = std::max(yield, 5.0 * problem_.patch[k].R);
+  }
+  return result_.v.norm() <= yield;
+}
+
+bool SpatialSearch::rests_in_pads() const {
+  bool idle = true;
+  for (int k = 0; k < problem_.patch_count; ++k) {
+    const ScaledPatch& patch = problem_.patch[k];
+    for (int j = patch.first; j < patch.first + patch.count; ++j) {
+      if (patch.body == ContactBody::kPusher && forces_.n[j] > kIdle) idle = false;
+    }
+  }
+  return idle && is_at_rest();
+}
+
+bool SpatialSearch::find_fall(bool pads_only, SpatialForces& forces,
+                              SpatialRates& rates) {
+  // Rounding of the rates against the yield of foundations: no faster than needed.
+  const double enough = std::clamp(1e8 * least_compliance(problem_), 100.0, 1e4);
+  SpatialForces known;
+  NewtonStart start;
+  const auto fall_with = [&](double mass, int budget) {
+    start.pads_only = pads_only;
+    start.added_mass = mass;
+    int steps = 0;
+    const NewtonResult fall =
+        run_newton(problem_, start, kFallTolerance, budget, forces, steps);
+    steps_ += steps;
+    if (fall.converged) rates = fall.v;
+    return fall.converged;
+  };
+  const auto settle_at = [&](double mass) {
+    start = {.r = 3.0};
+    if (fall_with(mass, kBudget)) return true;
+    start = {.r = 3.0, .pace = 10.0};
+    return fall_with(mass, kBudget);
+  };
+  double mass = 1e-4;
+  // Any object is slow if it is heavy enough.
+  for (const double heavier : {1e-4, 1.0}) {
+    mass = heavier;
+    if (!settle_at(mass)) continue;
+    // The rates are the imbalance over the mass: follow it down, or back up.
+    for (int trial = 0; trial < 20; ++trial) {
+      const double rate = rates.norm();
+      const bool proves = gains(problem_, rates, forces, pads_only);
+      if (proves && rate > 0.3 * enough && rate < 30.0 * enough) return true;
+      if (rate < 1e-8 / mass || rate > 1e6) return false;
+      const double factor = proves ? std::clamp(rate / enough, 0.1, 10.0) : 0.1;
+      mass *= factor;
+      known = forces;
+      const SpatialRates before = rates;
+      start = {.v = rates / factor, .forces = &known};
+      if (fall_with(mass, kBudget) || settle_at(mass)) continue;
+      forces = known;
+      rates = before;
+      break;
+    }
+    if (rates.norm() > kFallRate && gains(problem_, rates, forces, pads_only)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool SpatialSearch::find_other(SpatialForces& forces, SpatialRates& rates) {
+  const SpatialRates& along = problem_.pusher;
+  constexpr int kTurns = 6;
+  for (int trial = 0; trial < kTurns + 6; ++trial) {
+    // Fast turns either way, on which the object may leave the pusher; the pusher's own
+    // motion; and a spread of rates.
+    SpatialRates v = SpatialRates::Zero();
+    if (trial < kTurns) {
+      v[5 - trial / 2] = trial % 2 == 0 ? 5.0 : -5.0;
+    } else if (trial == kTurns) {
+      v = along;
+    } else {
+      for (int i = 0; i < problem_.freedoms; ++i) {
+        v[i] = 6.0 * (std::fmod(0.6180339887498949 * (8 * trial + i), 1.0) - 0.5);
+      }
+    }
+    int steps = 0;
+    const NewtonResult other =
+        run_newton(problem_, {.v = v, .r = trial % 2 == 0 ? 0.1 : 3.0, .e = 0.1},
+                   tolerance_, kBudget, forces, steps);
+    steps_ += steps;
+    if (!other.converged) continue;
+    const double apart = (other.v - result_.v).norm();
+    if (apart > kOtherMotion * (1.0 + result_.v.norm())) {
+      rates = other.v;
+      return true;
+    }
+  }
+  return false;
+}
+
+bool SpatialSearch::find_jam(SpatialForces& forces) {
+  ScaledSpatial stiffer = problem_;
+  SpatialForces known = forces_;
+  NewtonStart start = {.v = result_.v, .forces = &known, .r = 0.03};
+  double before = result_.largest_force;
+  for (int trial = 0; trial < 12; ++trial) {
+    for (int k = 0; k < problem_.patch_count; ++k) stiffer.patch[k].R *= 0.1;
+    // The jam's forces at the next compliance, should there be one.
+    for (int j = 0; j < problem_.padded; ++j) {
+      for (double* f : {&known.n[j], &known.t[j], &known.o[j], &known.s[j]}) *f *= 10.0;
+    }
+    int steps = 0;
+    const double size = 10.0 * before;
+    const NewtonResult next =
+        run_newton(stiffer, start, tolerance_ * size, kBudget, forces, steps);
+    steps_ += steps;
+    if (!next.converged || !(next.largest_force > 5.0 * before)) return false;
+    before = next.largest_force;
+    if (1.0 / before < kJamBalance) {
+      for (int j = 0; j < problem_.padded; ++j) {
+        for (double* f : {&forces.n[j], &forces.t[j], &forces.o[j], &forces.s[j]}) {
+          *f /= before;
+        }
+      }
+      return true;
+    }
+    known = forces;
+    start.v = next.v;
+  }
+  return false;
+}
+
+}  // namespace prehensile

@@ -19,10 +19,12 @@ inline constexpr Bounds kAngles{-100.0, 100.0, "rad"};
 
 inline constexpr std::array<Word<Axis>, 3> kAxisWords = {
     {{Axis::kX, "x"}, {Axis::kY, "y"}, {Axis::kZ, "z"}}};
-inline constexpr std::array<Word<JawMode>, 3> kJawModeWords = {
+inline constexpr std::array<Word<JawMode>, 5> kJawModeWords = {
     {{JawMode::kCoupled, "coupled"},
      {JawMode::kFixedJaw1, "fixed_jaw_1"},
-     {JawMode::kFixedJaw2, "fixed_jaw_2"}}};
+     {JawMode::kFixedJaw2, "fixed_jaw_2"},
+     {JawMode::kIndependent, "independent"},
+     {JawMode::kLocked, "locked"}}};
 inline constexpr std::array<Word<Overhang>, 2> kOverhangWords = {
     {{Overhang::kClip, "clip"}, {Overhang::kIgnore, "ignore"}}};
 inline constexpr std::array<Word<GoalTest>, 2> kGoalTestWords = {
@@ -98,7 +100,8 @@ void visit_gripper(Fields& fields, Gripper& gripper) {
                 "Of each finger.");
   fields.word("jaw_mode", gripper.jaw_mode, kJawModeWords, kOptional,
               "coupled: symmetric jaws; fixed_jaw_1 or fixed_jaw_2: that jaw stands "
-              "still, the other one presses.");
+              "still, the other one presses; independent: each presses by itself; "
+              "locked: both stand still.");
   fields.group("tool", gripper.tool, kOptional,
                "Fixed transform from H to the tool frame T of the robot.",
                [](auto& f, ToolTransform& tool) {

@@ -23,6 +23,14 @@ std::string text(double value) {
   return buffer;
 }
 
+std::string text(const Vec2& p) {
+  std::string out = "[";
+  out += text(p.x());
+  out += ", ";
+  out += text(p.y());
+  return out += ']';
+}
+
 /// Collects faults; a later group of checks runs only if the earlier ones passed.
 class Checker {
  public:
@@ -97,9 +105,8 @@ void check_object(Checker& checker, const Object& object) {
     for (const Vec2& v : outline) farthest = std::max(farthest, v.norm());
     if (object.p_OCom->norm() > farthest) {
       checker.fault("object.centre_of_mass",
-                    "[" + text(object.p_OCom->x()) + ", " + text(object.p_OCom->y()) +
-                        "]: expected a point of the object, at most " + text(farthest) +
-                        " m from its origin");
+                    text(*object.p_OCom) + ": expected a point of the object, at most " +
+                        text(farthest) + " m from its origin");
     }
   }
 }
@@ -131,6 +138,13 @@ void check_gripper(Checker& checker, const Gripper& gripper, const Object& objec
     checker.in_range("gripper.friction", mu, 0.0, 1e3, "");
   }
   checker.in_range("gripper.grip_force", gripper.grip_force, 0.0, 1e6, "N");
+  const bool both_driven_alike =
+      gripper.jaw_mode == JawMode::kIndependent || gripper.jaw_mode == JawMode::kLocked;
+  if (both_driven_alike && can_roll(object)) {
+    checker.fault("gripper.jaw_mode",
+                  "independent or locked jaws on the curved side of a cylinder: expected "
+                  "coupled, fixed_jaw_1 or fixed_jaw_2");
+  }
   for (int i = 0; i < 3; ++i) {
     checker.in_range("gripper.tool.position", gripper.tool.p_HT[i], -kLongest, kLongest,
                      "m");
@@ -226,9 +240,8 @@ void check_start_is_held(Checker& checker, const Scene& scene) {
   const bool on_face =
       contains(outline, p_OF) && ContactRegion(scene, 16).at(scene.start.X_HO).count > 0;
   if (!on_face) {
-    checker.fault("start", "the finger axis is at [" + text(p_OF.x()) + ", " +
-                               text(p_OF.y()) +
-                               "] in the object: expected the pads on the object");
+    checker.fault("start", "the finger axis is at " + text(p_OF) +
+                               " in the object: expected the pads on the object");
   }
 }
 

@@ -53,6 +53,38 @@ TEST(Program, ReferenceSaysWhyTheCircularCertificateRejectsIt) {
       << instant.out;
 }
 
+TEST(Program, SpatialSolverTakesPushersOffTheMidPlane) {
+  const std::string slide = "query instant problems/paper/slide.yaml ";
+  const Outcome planar = run_program(slide + "--json");
+  const Outcome middle = run_program(slide + "--solver spatial --json");
+  const Outcome above = run_program(slide + "--solver spatial --height-mm 5 --json");
+  ASSERT_EQ(planar.exit_code, 0);
+  ASSERT_EQ(middle.exit_code, 0) << middle.out << middle.err;
+  ASSERT_EQ(above.exit_code, 0) << above.out << above.err;
+  const double force = json::parse(planar.out).at("push_force");
+  EXPECT_NEAR(json::parse(middle.out).at("push_force"), force, 1e-5 * force);
+  EXPECT_LT(json::parse(above.out).at("certificate").at("worst"), 1e-6);
+  EXPECT_NE(json::parse(above.out).at("object_twist")[4], 0.0);
+  EXPECT_EQ(run_program(slide + "--height-mm 5").exit_code, 2);
+  EXPECT_EQ(run_program(slide + "--solver spatial --acceleration 1").exit_code, 2);
+}
+
+TEST(Program, ComparesAllSolversOfThisBuild) {
+  const Outcome compared =
+      run_program("query instant problems/paper/pivot.yaml --compare --json --points 4");
+  ASSERT_EQ(compared.exit_code, 0) << compared.out << compared.err;
+  const json solvers = json::parse(compared.out).at("solvers");
+  ASSERT_GE(solvers.size(), 4U);
+  double exact = 0.0;
+  for (const json& row : solvers) {
+    if (row.at("solver") == "exact") exact = row.at("push_force");
+  }
+  for (const json& row : solvers) {
+    if (row.at("push_force").is_null()) continue;
+    EXPECT_NEAR(row.at("push_force"), exact, 0.2 * exact) << row.dump();
+  }
+}
+
 TEST(Program, RollShowsBothMotionsWhereThereAreTwo) {
   const Outcome roll = run_program("query instant --roll problems/paper/roll.yaml");
   EXPECT_EQ(roll.exit_code, 1);

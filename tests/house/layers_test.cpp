@@ -52,7 +52,7 @@ std::vector<Room> rooms() {
       room("^zlib\\.h$", "^io/gzip\\.cpp$"),
       room("^(iostream|fstream)$", "^(io|apps)/.*"),
       room("^random$", "^$"),
-      room("^chrono$", "^planner/.*"),
+      room("^chrono$", "^(planner|apps)/.*"),
       room("^thread$", "^$"),
   };
 }

@@ -56,6 +56,11 @@ TEST(Scene, EachFaultNamesItsField) {
       {"gripper.pad.disc.radius", [nan](Scene& s) { s.gripper.pad = DiscPad{nan}; }},
       {"gripper.friction", [](Scene& s) { s.gripper.friction[1] = -0.1; }},
       {"gripper.grip_force", [](Scene& s) { s.gripper.grip_force = -1.0; }},
+      {"gripper.jaw_mode",
+       [](Scene& s) {
+         s.object.shape = CylinderShape{.radius = 0.02, .length = 0.1, .axis = Axis::kX};
+         s.gripper.jaw_mode = JawMode::kLocked;
+       }},
       {"gripper.tool.quaternion_xyzw", [](Scene& s) { s.gripper.tool.q_HT[3] = 2.0; }},
       {"pushers.0.friction", [](Scene& s) { s.pushers[0].friction = -0.5; }},
       {"pushers.0.faces", [](Scene& s) { s.pushers[0].faces = {"top"}; }},

@@ -1,0 +1,22 @@
+/// Answers about one spatial instant as text and as JSON.
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "mechanics/spatial_certificate.h"
+
+namespace prehensile::apps {
+
+struct SpatialReport {
+  std::string question;  ///< one line for people
+  SpatialProblem problem;
+  SpatialInstant instant;
+  SpatialCertificate certificate;
+};
+
+std::string describe(const SpatialReport& report);
+nlohmann::ordered_json to_json(const SpatialReport& report);
+
+}  // namespace prehensile::apps

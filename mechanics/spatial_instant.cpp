@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mechanics/spatial_interval.h"
 #include "mechanics/spatial_search.h"
 
 namespace prehensile {
@@ -10,7 +11,8 @@ namespace {
 constexpr double kInside = 1e-12;  ///< friction this much below its bound sticks
 constexpr double kGrazing = 1e-6;  ///< gap rates below this do not part
 
-constexpr double kRigid = 1e-8;  ///< compliance of the rigid limit, in units V0 / F0
+constexpr double kRigid = 1e-8;   ///< compliance of the rigid limit, in units V0 / F0
+constexpr double kVaries = 1e-6;  ///< length of an interval of forces that counts
 constexpr double kJamForce = 1e3;
 constexpr double kFallsFreely = 1e6;  ///< rates of inertia alone, lost to rounding in V0
 
@@ -222,15 +224,7 @@ class Instant {
     const bool stands = status == InstantStatus::kMoves && !scaled_.has_inertia &&
                         search.is_at_rest() && pads_stick(scaled_, answer_);
     if (stands) status = InstantStatus::kHolds;
-    if ((status == InstantStatus::kMoves || stands) &&
-        has_free_loads(problem_, answer_)) {
-      status = InstantStatus::kNonuniqueForces;
-      double sum = 0.0;
-      for_each_point(scaled_, [&](const ScaledPatch& patch, int i, int) {
-        if (patch.body == ContactBody::kPusher) sum += answer_.point[i].normal_force;
-      });
-      answer_.force_low = answer_.force_high = sum;
-    }
+    if (status == InstantStatus::kMoves || stands) report_interval(search, status);
     SpatialRates rates;
     if (options_.probe_multiplicity && search.find_other(extra, rates)) {
       status = InstantStatus::kAmbiguous;
@@ -239,6 +233,24 @@ class Instant {
       report_other_forces(extra);
     }
     answer_.status = status;
+  }
+
+  /// Do the pads leave the push force open, or the share of their points in the load?
+  void report_interval(const SpatialSearch& search, InstantStatus& status) {
+    const ForceInterval interval =
+        force_interval(scaled_, search.result().v, search.forces());
+    if (!interval.free_forces) return;
+    const double F0 = scaled_.units.force;
+    double sum = 0.0;
+    for_each_point(scaled_, [&](const ScaledPatch& patch, int i, int) {
+      if (patch.body == ContactBody::kPusher) sum += answer_.point[i].normal_force;
+    });
+    const bool varies =
+        interval.found && interval.high - interval.low > kVaries * (1.0 + interval.low);
+    if (!varies && !has_free_loads(problem_, answer_)) return;
+    status = InstantStatus::kNonuniqueForces;
+    answer_.force_low = interval.found ? std::min(sum, F0 * interval.low) : sum;
+    answer_.force_high = interval.found ? std::max(sum, F0 * interval.high) : sum;
   }
 
   void report_other_forces(const SpatialForces& forces) {

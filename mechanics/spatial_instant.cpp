@@ -91,7 +91,7 @@ InstantStatus judge_rest(const ScaledSpatial& scaled, const SpatialInstant& answ
   double least = std::numeric_limits<double>::infinity();
   double yield = kGrazing;
   for_each_point(scaled, [&](const ScaledPatch& patch, int i, int) {
-    yield = std::max(yield, 10.0 * patch.R);
+    yield = std::max(yield, std::min(0.1, 10.0 * patch.R));
     if (patch.body != ContactBody::kPusher) return;
     least = std::min(least, answer.point[i].normal_rate / scaled.units.rate);
   });

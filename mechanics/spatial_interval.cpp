@@ -123,15 +123,11 @@ class Interval {
     for (int j = patch.first; j < patch.first + patch.count; ++j) {
       const double a = problem.a[j];
       const double b = problem.b[j];
-      FreePoint point;
+      FreePoint& point = point_[count_];
       point.now << forces.n[j], forces.t[j], forces.o[j], patch.soft ? forces.s[j] : 0.0;
       point.mu = patch.mu;
       point.bound = patch.mu * point.now[0];
       point.pushes = pushes;
-      point.rows.row(0) = T.row(0) + b * T.row(1) - a * T.row(2);
-      point.rows.row(1) = T.row(3) - b * T.row(5);
-      point.rows.row(2) = T.row(4) + a * T.row(5);
-      point.rows.row(3) = patch.e * T.row(5);
       const Vec3 slip(y[3] - b * y[5], y[4] + a * y[5], patch.e * y[5]);
       const double gap = y[0] + b * y[1] - a * y[2];
       const double friction = point.now.tail<3>().norm();
@@ -152,8 +148,11 @@ class Interval {
       }
       if (pushes && !fixed_normal) given_sum_ -= point.now[0];
       pads_are_free_ = pads_are_free_ || !pushes;
-      start_[count_] = point.now;
-      point_[count_++] = point;
+      point.rows.row(0) = T.row(0) + b * T.row(1) - a * T.row(2);
+      point.rows.row(1) = T.row(3) - b * T.row(5);
+      point.rows.row(2) = T.row(4) + a * T.row(5);
+      point.rows.row(3) = patch.e * T.row(5);
+      start_[count_++] = point.now;
     }
   }
 

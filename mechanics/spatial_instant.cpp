@@ -132,11 +132,6 @@ class Instant {
           SpatialInstant& answer)
       : problem_(problem), options_(options), answer_(answer) {
     scale(problem, scaled_);
-    if (options.rigid_limit) {
-      for (int k = 0; k < scaled_.patch_count; ++k) {
-        if (scaled_.patch[k].R > 0.0) scaled_.patch[k].R = kRigid;
-      }
-    }
   }
 
   void solve(const SpatialInstant* last) {
@@ -290,6 +285,18 @@ class Instant {
 
 }  // namespace
 
+SpatialProblem rigid_limit_of(const SpatialProblem& problem) noexcept {
+  SpatialProblem rigid = problem;
+  const SpatialUnits units = spatial_units(problem);
+  for (int k = 0; k < rigid.patch_count; ++k) {
+    ContactPatch& patch = rigid.patch[k];
+    if (patch.pressure == PressureLaw::kFoundation) {
+      patch.compliance = kRigid * units.rate / units.force;
+    }
+  }
+  return rigid;
+}
+
 SpatialInstant solve_spatial(const SpatialProblem& problem,
                              const SpatialSolveOptions& options,
                              SpatialWarmStart* warm) noexcept {
@@ -299,8 +306,13 @@ SpatialInstant solve_spatial(const SpatialProblem& problem,
     return answer;
   }
   answer.status = InstantStatus::kOutOfIterations;
-  Instant(problem, options, answer)
-      .solve(warm != nullptr && warm->valid ? &warm->last : nullptr);
+  const SpatialInstant* last = warm != nullptr && warm->valid ? &warm->last : nullptr;
+  if (options.rigid_limit) {
+    const SpatialProblem rigid = rigid_limit_of(problem);
+    Instant(rigid, options, answer).solve(last);
+  } else {
+    Instant(problem, options, answer).solve(last);
+  }
   if (warm != nullptr) {
     warm->valid = usable(answer.status);
     warm->last = answer;

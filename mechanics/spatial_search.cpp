@@ -274,7 +274,10 @@ bool SpatialSearch::find_fall(bool pads_only, SpatialForces& forces,
       mass *= factor;
       known = forces;
       const SpatialRates before = rates;
-      start = {.v = rates / factor, .forces = &known};
+      // Rates that follow the mass, unless the pusher holds them.
+      start = {.v = before / factor, .forces = &known};
+      if (fall_with(mass, kBudget)) continue;
+      start.v = before;
       if (fall_with(mass, kBudget) || settle_at(mass)) continue;
       forces = known;
       rates = before;

@@ -99,9 +99,10 @@ struct SpatialWarmStart {
 /// carries the rest in the pads as witness if they do (a pusher that presses on the
 /// object cannot be told from one that holds it up otherwise). kDynamic where no motion
 /// is found and the object falls. With inertia, what is found is a motion (kMoves) unless
-/// it is lost in a fall; that it is the only one is for `probe_multiplicity` to doubt. A
-/// push against a jaw that stands still is kJammed where its forces grow without bound as
-/// the foundations stiffen. kOutOfIterations also where neither hold nor fall could be
+/// it is lost in a fall. That a motion is the only one is for `probe_multiplicity` to
+/// doubt: with two points per pad one in ten has a second, with four or more hardly any.
+/// A push against a jaw that stands still is kJammed where its forces grow without bound
+/// as the foundations stiffen. kOutOfIterations also where neither hold nor fall could be
 /// shown.
 ///
 /// kBadInput: no pusher, no jaw patch, a pusher at rest, values out of the ranges stated

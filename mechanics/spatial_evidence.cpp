@@ -7,10 +7,11 @@
 namespace prehensile {
 namespace {
 
-constexpr double kFails = 1.0;    ///< the claim is false
-constexpr double kGains = 1e-9;   ///< least gain of power that counts, relative
-constexpr double kFalls = 3.0;    ///< a fall is faster than this many unit rates
-constexpr double kYields = 10.0;  ///< foundations may yield to this many unit forces
+constexpr double kFails = 1.0;      ///< the claim is false
+constexpr double kGains = 1e-9;     ///< least gain of power that counts, relative
+constexpr double kFalls = 3.0;      ///< a fall is faster than this many unit rates
+constexpr double kMostYield = 0.5;  ///< at rest is at most this fast, in unit rates
+constexpr double kYields = 10.0;    ///< foundations may yield to this many unit forces
 
 bool is_pad(const ContactPatch& patch) { return patch.body != ContactBody::kPusher; }
 
@@ -89,7 +90,8 @@ double rest_violation(const SpatialProblem& problem, const SpatialInstant& answe
   for (int k = 0; k < problem.patch_count; ++k) {
     const ContactPatch& patch = problem.patch[k];
     if (patch.pressure == PressureLaw::kFoundation) {
-      yield = std::max(yield, kYields * patch.compliance * units.force);
+      const double own = kYields * patch.compliance * units.force;
+      yield = std::max(yield, std::min(kMostYield * units.rate, own));
     }
     for (int i = patch.first; i < patch.first + patch.count; ++i) {
       const SpatialPoint& point = answer.point[i];

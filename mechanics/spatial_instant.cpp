@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mechanics/spatial_interval.h"
 #include "mechanics/spatial_search.h"
 
 namespace prehensile {
@@ -10,7 +11,8 @@ namespace {
 constexpr double kInside = 1e-12;  ///< friction this much below its bound sticks
 constexpr double kGrazing = 1e-6;  ///< gap rates below this do not part
 
-constexpr double kRigid = 1e-8;  ///< compliance of the rigid limit, in units V0 / F0
+constexpr double kRigid = 1e-8;   ///< compliance of the rigid limit, in units V0 / F0
+constexpr double kVaries = 1e-6;  ///< length of an interval of forces that counts
 constexpr double kJamForce = 1e3;
 constexpr double kFallsFreely = 1e6;  ///< rates of inertia alone, lost to rounding in V0
 
@@ -89,7 +91,7 @@ InstantStatus judge_rest(const ScaledSpatial& scaled, const SpatialInstant& answ
   double least = std::numeric_limits<double>::infinity();
   double yield = kGrazing;
   for_each_point(scaled, [&](const ScaledPatch& patch, int i, int) {
-    yield = std::max(yield, 10.0 * patch.R);
+    yield = std::max(yield, std::min(0.1, 10.0 * patch.R));
     if (patch.body != ContactBody::kPusher) return;
     least = std::min(least, answer.point[i].normal_rate / scaled.units.rate);
   });
@@ -130,11 +132,6 @@ class Instant {
           SpatialInstant& answer)
       : problem_(problem), options_(options), answer_(answer) {
     scale(problem, scaled_);
-    if (options.rigid_limit) {
-      for (int k = 0; k < scaled_.patch_count; ++k) {
-        if (scaled_.patch[k].R > 0.0) scaled_.patch[k].R = kRigid;
-      }
-    }
   }
 
   void solve(const SpatialInstant* last) {
@@ -222,15 +219,7 @@ class Instant {
     const bool stands = status == InstantStatus::kMoves && !scaled_.has_inertia &&
                         search.is_at_rest() && pads_stick(scaled_, answer_);
     if (stands) status = InstantStatus::kHolds;
-    if ((status == InstantStatus::kMoves || stands) &&
-        has_free_loads(problem_, answer_)) {
-      status = InstantStatus::kNonuniqueForces;
-      double sum = 0.0;
-      for_each_point(scaled_, [&](const ScaledPatch& patch, int i, int) {
-        if (patch.body == ContactBody::kPusher) sum += answer_.point[i].normal_force;
-      });
-      answer_.force_low = answer_.force_high = sum;
-    }
+    if (status == InstantStatus::kMoves || stands) report_interval(search, status);
     SpatialRates rates;
     if (options_.probe_multiplicity && search.find_other(extra, rates)) {
       status = InstantStatus::kAmbiguous;
@@ -239,6 +228,24 @@ class Instant {
       report_other_forces(extra);
     }
     answer_.status = status;
+  }
+
+  /// Do the pads leave the push force open, or the share of their points in the load?
+  void report_interval(const SpatialSearch& search, InstantStatus& status) {
+    const ForceInterval interval =
+        force_interval(scaled_, search.result().v, search.forces());
+    if (!interval.free_forces) return;
+    const double F0 = scaled_.units.force;
+    double sum = 0.0;
+    for_each_point(scaled_, [&](const ScaledPatch& patch, int i, int) {
+      if (patch.body == ContactBody::kPusher) sum += answer_.point[i].normal_force;
+    });
+    const bool varies =
+        interval.found && interval.high - interval.low > kVaries * (1.0 + interval.low);
+    if (!varies && !has_free_loads(problem_, answer_)) return;
+    status = InstantStatus::kNonuniqueForces;
+    answer_.force_low = interval.found ? std::min(sum, F0 * interval.low) : sum;
+    answer_.force_high = interval.found ? std::max(sum, F0 * interval.high) : sum;
   }
 
   void report_other_forces(const SpatialForces& forces) {
@@ -278,6 +285,18 @@ class Instant {
 
 }  // namespace
 
+SpatialProblem rigid_limit_of(const SpatialProblem& problem) noexcept {
+  SpatialProblem rigid = problem;
+  const SpatialUnits units = spatial_units(problem);
+  for (int k = 0; k < rigid.patch_count; ++k) {
+    ContactPatch& patch = rigid.patch[k];
+    if (patch.pressure == PressureLaw::kFoundation) {
+      patch.compliance = kRigid * units.rate / units.force;
+    }
+  }
+  return rigid;
+}
+
 SpatialInstant solve_spatial(const SpatialProblem& problem,
                              const SpatialSolveOptions& options,
                              SpatialWarmStart* warm) noexcept {
@@ -287,8 +306,13 @@ SpatialInstant solve_spatial(const SpatialProblem& problem,
     return answer;
   }
   answer.status = InstantStatus::kOutOfIterations;
-  Instant(problem, options, answer)
-      .solve(warm != nullptr && warm->valid ? &warm->last : nullptr);
+  const SpatialInstant* last = warm != nullptr && warm->valid ? &warm->last : nullptr;
+  if (options.rigid_limit) {
+    const SpatialProblem rigid = rigid_limit_of(problem);
+    Instant(rigid, options, answer).solve(last);
+  } else {
+    Instant(problem, options, answer).solve(last);
+  }
   if (warm != nullptr) {
     warm->valid = usable(answer.status);
     warm->last = answer;

@@ -76,13 +76,16 @@ struct SpatialInstant {
 };
 
 struct SpatialSolveOptions {
-  double tolerance = 1e-9;          ///< natural-map residual to reach, 1e-12..1e-6
-  int max_iterations = 8000;        ///< Newton steps in all
+  double tolerance = 1e-9;    ///< natural-map residual to reach, 1e-12..1e-6
+  int max_iterations = 8000;  ///< Newton steps in search of a motion, all starts together
   bool probe_multiplicity = false;  ///< also solve from other starts, for a second motion
-  bool rigid_limit = false;  ///< continue the compliance of all foundations down to 1e-8
-                             ///< of V0 / F0; the answer is that of the last one, and
-                             ///< obeys the laws with that compliance
+  bool rigid_limit = false;         ///< solve `rigid_limit_of` the problem
 };
+
+/// The problem with all its foundations as stiff as rates of 1e-8 pusher rates per unit
+/// force resolve: within rounding the limit of rigid contact with the preloaded split.
+/// Requires a problem that is not bad input.
+SpatialProblem rigid_limit_of(const SpatialProblem& problem) noexcept;
 
 /// Warm start of a sequence of similar instants.
 struct SpatialWarmStart {
@@ -92,10 +95,21 @@ struct SpatialWarmStart {
 
 /// Solves one instant. No heap, no exceptions. `warm` is read if valid, and written.
 ///
+/// Quasi-statically, a motion is kAmbiguous if the pads alone do not hold gravity, and
+/// carries the rest in the pads as witness if they do (a pusher that presses on the
+/// object cannot be told from one that holds it up otherwise). kDynamic where no motion
+/// is found and the object falls. With inertia, what is found is a motion (kMoves) unless
+/// it is lost in a fall. That a motion is the only one is for `probe_multiplicity` to
+/// doubt: with two points per pad one in ten has a second, with four or more hardly any.
+/// A push against a jaw that stands still is kJammed where its forces grow without bound
+/// as the foundations stiffen. kOutOfIterations also where neither hold nor fall could be
+/// shown.
+///
 /// kBadInput: no pusher, no jaw patch, a pusher at rest, values out of the ranges stated
-/// in SpatialProblem, points of a patch off their common plane, patches of one jaw with
-/// different normals, no friction at all and no grip, given loads that contradict the
-/// drive of the jaws, or numbers that are not finite.
+/// in SpatialProblem, patches whose points do not follow each other in the order of the
+/// patches, points of a patch off their common plane across n, patches of one jaw with
+/// different normals, given loads that contradict the drive of the jaws, or numbers that
+/// are not finite.
 SpatialInstant solve_spatial(const SpatialProblem& problem,
                              const SpatialSolveOptions& options = {},
                              SpatialWarmStart* warm = nullptr) noexcept;

@@ -52,8 +52,10 @@ struct SpatialReference {
   int steps = 0;  ///< pivots or interior-point iterations, of all starts
 };
 
-/// By pivoting: exact on the polyhedral cones up to rounding. Cost grows with the third
-/// power of points times generators.
+/// By pivoting: exact on the polyhedral cones up to rounding. Rates are unknowns of the
+/// pivoting, so the quasi-static limit needs no inertia; where the search ends without an
+/// answer it is repeated with some, which is then let go. Cost grows with the third power
+/// of points times generators.
 SpatialReference solve_spatial_pivoting(const SpatialProblem& problem,
                                         const SpatialReferenceOptions& options = {});
 

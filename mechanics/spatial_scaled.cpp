@@ -116,33 +116,6 @@ double reach_of_pusher(const SpatialProblem& problem, const Vec3& centre) {
   return reach;
 }
 
-SpatialUnits units_of(const SpatialProblem& problem) {
-  SpatialUnits units;
-  measure_pads(problem, units);
-  const double reach = reach_of_pusher(problem, units.centre);
-  // Pads that are all but a point: rounding would show in their torques.
-  units.length = std::max(units.length, 0.01 * reach);
-  if (units.length <= 0.0) units.length = 1.0;
-
-  double mu = 1.0;
-  double load = problem.grip_force;
-  for (int k = 0; k < problem.patch_count; ++k) {
-    const ContactPatch& patch = problem.patch[k];
-    if (!is_jaw(patch.body)) continue;
-    mu = std::max(mu, patch.mu);
-    double sum = 0.0;
-    for (int i = patch.first; i < patch.first + patch.count; ++i) {
-      sum += problem.preload[i];
-    }
-    load = std::max(load, sum);
-  }
-  const double driven = (problem.inertia * problem.V_HP).head<3>().norm();
-  units.force = std::max({load, problem.w_g.head<3>().norm(), driven}) * mu;
-  if (units.force <= 0.0) units.force = 1.0;
-  units.rate = pusher_rate(problem);
-  return units;
-}
-
 /// Object rates about the origin of H from scaled ones: v = V0 (v' + centre x w' / L0).
 Eigen::Matrix<double, 6, 6> to_hand(const SpatialUnits& units) {
   Eigen::Matrix<double, 6, 6> S = Eigen::Matrix<double, 6, 6>::Zero();
@@ -221,8 +194,35 @@ bool is_posed(const SpatialProblem& problem) noexcept {
   return rate > 0.0 && std::isfinite(rate) && given_loads_match(problem);
 }
 
+SpatialUnits spatial_units(const SpatialProblem& problem) noexcept {
+  SpatialUnits units;
+  measure_pads(problem, units);
+  const double reach = reach_of_pusher(problem, units.centre);
+  // Pads that are all but a point: rounding would show in their torques.
+  units.length = std::max(units.length, 0.01 * reach);
+  if (units.length <= 0.0) units.length = 1.0;
+
+  double mu = 1.0;
+  double load = problem.grip_force;
+  for (int k = 0; k < problem.patch_count; ++k) {
+    const ContactPatch& patch = problem.patch[k];
+    if (!is_jaw(patch.body)) continue;
+    mu = std::max(mu, patch.mu);
+    double sum = 0.0;
+    for (int i = patch.first; i < patch.first + patch.count; ++i) {
+      sum += problem.preload[i];
+    }
+    load = std::max(load, sum);
+  }
+  const double driven = (problem.inertia * problem.V_HP).head<3>().norm();
+  units.force = std::max({load, problem.w_g.head<3>().norm(), driven}) * mu;
+  if (units.force <= 0.0) units.force = 1.0;
+  units.rate = pusher_rate(problem);
+  return units;
+}
+
 void scale(const SpatialProblem& problem, ScaledSpatial& scaled) noexcept {
-  scaled.units = units_of(problem);
+  scaled.units = spatial_units(problem);
   const SpatialUnits& units = scaled.units;
   const JawFreedoms jaws = jaw_freedoms(problem);
   scaled.freedoms = 6 + jaws.count;

@@ -85,6 +85,10 @@ struct ScaledSpatial {
 /// False if the data make no sense; see solve_spatial.
 bool is_posed(const SpatialProblem& problem) noexcept;
 
+/// Units that make a problem dimensionless. The force contains the friction of the pads
+/// where that exceeds 1.
+SpatialUnits spatial_units(const SpatialProblem& problem) noexcept;
+
 /// Requires is_posed.
 void scale(const SpatialProblem& problem, ScaledSpatial& scaled) noexcept;
 

@@ -7,11 +7,12 @@ namespace {
 
 constexpr int kFirstBudget = 150;
 constexpr int kBudget = 200;
-constexpr double kStiff = 1e-4;     ///< compliance below which continuation comes first
-constexpr double kHeldRate = 10.0;  ///< rates of a held object, as foundations yield
-constexpr double kAtRest = 1e-7;    ///< rates of an object at rest on rigid pads
-constexpr double kIdle = 1e-9;      ///< a pusher that carries less carries nothing
-constexpr double kFallRate = 10.0;  ///< rates that no pusher or foundation causes
+constexpr double kStiff = 1e-4;      ///< compliance below which continuation comes first
+constexpr double kHeldRate = 10.0;   ///< rates of a held object, as foundations yield
+constexpr double kAtRest = 1e-7;     ///< rates of an object at rest on rigid pads
+constexpr double kMostYield = 0.05;  ///< the most that still counts as rest
+constexpr double kIdle = 1e-9;       ///< a pusher that carries less carries nothing
+constexpr double kFallRate = 10.0;   ///< rates that no pusher or foundation causes
 constexpr double kFallTolerance = 1e-8;  ///< enough for evidence
 constexpr double kOtherMotion = 1e-5;
 constexpr double kJamForce = 1e3;     ///< forces that call for a second look
@@ -195,20 +196,22 @@ bool SpatialSearch::approach_compliance() {
 }
 
 SpatialSearch::Hold SpatialSearch::judge_hold(bool patiently) {
-  const std::array<NewtonStart, 4> starts = {
-      {{}, {.e = 0.1}, {.r = 3.0, .pace = 1e-3}, {.r = 3.0, .e = 10.0}}};
+  // Where every point sticks, one stiff step tells.
+  const std::array<NewtonStart, 5> starts = {
+      {{.r = 1e-9}, {}, {.e = 0.1}, {.r = 3.0, .pace = 1e-3}, {.r = 3.0, .e = 10.0}}};
   // Jaws that both give way leave the object free along the grip: that is no fall.
   const bool drifts = problem_.freedoms == 8;
   bool ran_away = false;
-  for (std::size_t k = patiently || drifts ? 1 : 0; k < starts.size(); ++k) {
+  for (std::size_t k = patiently || drifts ? 2 : 0; k < starts.size(); ++k) {
     NewtonStart start = starts[k];
     start.pads_only = true;
     int steps = 0;
     const NewtonResult rest =
-        run_newton(problem_, start, 1e-8, kFirstBudget, rest_forces_, steps);
+        run_newton(problem_, start, 1e-8, k == 0 ? 3 : kFirstBudget, rest_forces_, steps);
     steps_ += steps;
     rest_rates_ = rest.v;
     if (rest.converged) return rest.v.norm() <= kHeldRate ? Hold::kHeld : Hold::kFalls;
+    if (k == 0) continue;
     ran_away = ran_away || rest.runs_away;
     if (ran_away && !patiently) break;
   }
@@ -218,7 +221,7 @@ SpatialSearch::Hold SpatialSearch::judge_hold(bool patiently) {
 bool SpatialSearch::is_at_rest() const {
   double yield = kAtRest;
   for (int k = 0; k < problem_.patch_count; ++k) {
-    yield = std::max(yield, 5.0 * problem_.patch[k].R);
+    yield = std::max(yield, std::min(kMostYield, 5.0 * problem_.patch[k].R));
   }
   return result_.v.norm() <= yield;
 }
@@ -271,7 +274,10 @@ bool SpatialSearch::find_fall(bool pads_only, SpatialForces& forces,
       mass *= factor;
       known = forces;
       const SpatialRates before = rates;
-      start = {.v = rates / factor, .forces = &known};
+      // Rates that follow the mass, unless the pusher holds them.
+      start = {.v = before / factor, .forces = &known};
+      if (fall_with(mass, kBudget)) continue;
+      start.v = before;
       if (fall_with(mass, kBudget) || settle_at(mass)) continue;
       forces = known;
       rates = before;

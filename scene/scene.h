@@ -67,7 +67,7 @@ enum class JawMode {
   kFixedJaw1,  ///< jaw 1 stands still, jaw 2 presses with the grip force
   kFixedJaw2,  ///< jaw 2 stands still, jaw 1 presses with the grip force
   kIndependent,  ///< two actuators, each presses with the grip force
-  kLocked,       ///< both jaws stand still; the squeeze is what the pads' elasticity holds
+  kLocked,  ///< both jaws stand still; the squeeze is what the pads' elasticity holds
 };
 
 /// Fixed transform from H to the robot's tool frame T.

@@ -238,6 +238,10 @@ TEST(SpatialClosedForms, ForceOnASlidingCylinderLiesInTheInterval) {
         const SpatialInstant answer = certified(problem);
         EXPECT_GE(answer.w_push[0], low - 20 * kTight) << mu_e;
         EXPECT_LE(answer.w_push[0], high + 20 * kTight) << mu_e;
+        if (answer.status == InstantStatus::kNonuniqueForces) {
+          EXPECT_NEAR(answer.force_low, low, 20 * kTight) << mu_e;
+          EXPECT_NEAR(answer.force_high, high, 20 * kTight) << mu_e;
+        }
         // The jaws alone hold the lighter one only.
         EXPECT_EQ(answer.status, weight > grip ? InstantStatus::kAmbiguous
                                  : law == PressureLaw::kFree

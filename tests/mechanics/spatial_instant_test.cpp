@@ -227,6 +227,8 @@ TEST(SpatialInstant, RigidLimitIsTheLimitOfStiffFoundations) {
     const SpatialProblem soft = random_spatial(97, i, {.compliance = 1e-5});
     const SpatialInstant stiff = solve_spatial(soft);
     const SpatialInstant rigid = solve_spatial(soft, {.rigid_limit = true});
+    const SpatialCertificate certificate = certify(rigid_limit_of(soft), rigid);
+    EXPECT_TRUE(certificate.holds()) << i << " " << told(certificate);
     if (stiff.status != InstantStatus::kMoves || rigid.status != stiff.status) continue;
     ++both;
     off.push_back(std::abs(stiff.push_force - rigid.push_force) / soft.grip_force);

@@ -137,6 +137,41 @@ Change faster(const SpatialProblem& problem) {
   return change;
 }
 
+/// The points of the patches, in this order of patches.
+Change with_patches(const SpatialProblem& problem,
+                    const std::vector<ContactPatch>& patches) {
+  Change change{problem, [](const SpatialTwist& V) { return V; }, 1.0};
+  SpatialProblem& q = change.problem;
+  q.count = 0;
+  q.patch_count = 0;
+  for (const ContactPatch& patch : patches) {
+    ContactPatch& copy = q.patch[q.patch_count++];
+    copy = patch;
+    copy.first = q.count;
+    for (int i = patch.first; i < patch.first + patch.count; ++i) {
+      q.x[q.count] = problem.x[i];
+      q.y[q.count] = problem.y[i];
+      q.z[q.count] = problem.z[i];
+      q.preload[q.count++] = problem.preload[i];
+    }
+  }
+  return change;
+}
+
+Change with_pusher_first(const SpatialProblem& problem) {
+  return with_patches(problem, {problem.patch[2], problem.patch[1], problem.patch[0]});
+}
+
+Change with_a_pad_in_two_parts(const SpatialProblem& problem) {
+  ContactPatch first = problem.patch[0];
+  ContactPatch second = first;
+  first.count = (first.count + 1) / 2;
+  second.first += first.count;
+  second.count -= first.count;
+  if (second.count == 0) return with_pusher_first(problem);
+  return with_patches(problem, {first, problem.patch[1], second, problem.patch[2]});
+}
+
 TEST(SpatialInvariance, MovesWithTheFrame) { expect_same(moved_away, {}, 500); }
 TEST(SpatialInvariance, AcceleratesWithTheFrame) {
   expect_same(moved_away, {.acceleration = 1.0}, 300);
@@ -145,6 +180,9 @@ TEST(SpatialInvariance, Mirror) { expect_same(mirrored, {}, 500); }
 TEST(SpatialInvariance, FingersSwapped) { expect_same(with_fingers_swapped, {}, 500); }
 TEST(SpatialInvariance, ForcesScaleWithTheGrip) { expect_same(gripped_harder, {}, 500); }
 TEST(SpatialInvariance, RatesScaleWithThePusher) { expect_same(faster, {}, 500); }
+
+TEST(SpatialInvariance, OrderOfPatches) { expect_same(with_pusher_first, {}, 300); }
+TEST(SpatialInvariance, PadInTwoParts) { expect_same(with_a_pad_in_two_parts, {}, 300); }
 
 TEST(SpatialInvariance, RefinedPadsConverge) {
   std::vector<double> coarse, fine;

@@ -16,6 +16,7 @@
 
 #include <Eigen/QR>
 
+#include "benchmarks/csv_file.h"
 #include "benchmarks/measure.h"
 #include "io/friction_collection.h"
 #include "mechanics/mixed_lemke.h"
@@ -204,16 +205,13 @@ int run(int count, char** arguments) {
     std::fputs("usage: bench_collection FOLDER [-o FILE]\n", stderr);
     return 2;
   }
-  std::FILE* const out = writes ? std::fopen(arguments[3], "w") : stdout;
-  if (!out) {
-    std::fprintf(stderr, "cannot write %s\n", arguments[3]);
-    return 2;
-  }
+  CsvFile csv(writes ? arguments[3] : nullptr);
+  if (!csv.get()) return 2;
   const std::vector<Run> runs = run_folder(arguments[1]);
-  write_csv(runs, out);
-  if (writes) std::fclose(out);
+  write_csv(runs, csv.get());
+  const bool written = csv.close();
   write_table(runs, stderr);
-  return 0;
+  return written ? 0 : 1;
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/csv_file.h"
 #include "benchmarks/measure.h"
 #include "mechanics/certificate.h"
 #include "mechanics/limit_surface.h"
@@ -285,16 +286,13 @@ int run(int count, char** arguments) {
         stderr);
     return 2;
   }
-  std::FILE* out = options.file ? std::fopen(options.file, "w") : stdout;
-  if (!out) {
-    std::fprintf(stderr, "error: cannot write %s\n", options.file);
-    return 2;
-  }
+  CsvFile csv(options.file);
+  if (!csv.get()) return 2;
   std::vector<Run> runs;
   study_pads(options, runs);
   study_generators(options, runs);
-  write_csv(options, runs, out);
-  const bool written = std::ferror(out) == 0 && (out == stdout || std::fclose(out) == 0);
+  write_csv(options, runs, csv.get());
+  const bool written = csv.close();
   write_summary(runs, stderr);
   return written ? 0 : 1;
 }

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/csv_file.h"
 #include "benchmarks/measure.h"
 #include "planner/frame.h"
 #include "planner/push_search.h"
@@ -219,11 +220,8 @@ int run(int count, char** arguments) {
         stderr);
     return 2;
   }
-  std::FILE* out = options.file ? std::fopen(options.file, "w") : stdout;
-  if (!out) {
-    std::fprintf(stderr, "error: cannot write %s\n", options.file);
-    return 2;
-  }
+  CsvFile csv(options.file);
+  if (!csv.get()) return 2;
   std::vector<Run> runs;
   for (const Scene& scene : scenes(options)) {
     for (const std::string& planner : planners) {
@@ -234,8 +232,8 @@ int run(int count, char** arguments) {
       }
     }
   }
-  write_csv(options, runs, out);
-  const bool written = std::ferror(out) == 0 && (out == stdout || std::fclose(out) == 0);
+  write_csv(options, runs, csv.get());
+  const bool written = csv.close();
   write_summary(planners, runs, stderr);
   return written ? 0 : 1;
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/csv_file.h"
 #include "benchmarks/measure.h"
 #include "primitives/transition.h"
 #include "problems/random_pushes.h"
@@ -152,15 +153,12 @@ int run(int count, char** arguments) {
     std::fputs("usage: bench_push [--quick] [--pushes N] [--seed S] [-o FILE]\n", stderr);
     return 2;
   }
-  std::FILE* out = options.file ? std::fopen(options.file, "w") : stdout;
-  if (!out) {
-    std::fprintf(stderr, "error: cannot write %s\n", options.file);
-    return 2;
-  }
+  CsvFile csv(options.file);
+  if (!csv.get()) return 2;
   std::vector<Run> runs;
   for (int index = 0; index < options.pushes; ++index) run_push(options, index, runs);
-  write_csv(options, runs, out);
-  const bool written = std::ferror(out) == 0 && (out == stdout || std::fclose(out) == 0);
+  write_csv(options, runs, csv.get());
+  const bool written = csv.close();
   write_summary(runs, stderr);
   return written ? 0 : 1;
 }

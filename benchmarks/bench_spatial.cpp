@@ -19,6 +19,7 @@
 #include <tuple>
 #include <vector>
 
+#include "benchmarks/csv_file.h"
 #include "benchmarks/measure.h"
 #include "benchmarks/natural_map.h"
 #include "benchmarks/siconos_peer.h"
@@ -288,11 +289,8 @@ int run(int count, char** arguments) {
         stderr);
     return 2;
   }
-  std::FILE* const out = options.file ? std::fopen(options.file, "w") : stdout;
-  if (!out) {
-    std::fprintf(stderr, "cannot write %s\n", options.file);
-    return 2;
-  }
+  CsvFile csv(options.file);
+  if (!csv.get()) return 2;
   if (!siconos_is_built()) std::fputs("built without Siconos: no peers\n", stderr);
   std::vector<Run> runs;
   for (const double acceleration : options.accelerations) {
@@ -302,10 +300,10 @@ int run(int count, char** arguments) {
       }
     }
   }
-  write_csv(options, runs, out);
-  if (options.file) std::fclose(out);
+  write_csv(options, runs, csv.get());
+  const bool written = csv.close();
   write_summary(runs, stderr);
-  return 0;
+  return written ? 0 : 1;
 }
 
 }  // namespace

@@ -11,11 +11,13 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Cholesky>
 
+#include "benchmarks/csv_file.h"
 #include "benchmarks/measure.h"
 #include "benchmarks/truth_data.h"
 #include "mechanics/limit_surface.h"
@@ -373,24 +375,17 @@ int main(int argc, char** argv) {
   if (options.data.empty() || options.points < 4 || options.points > 80) {
     return usage(stderr);
   }
-  std::FILE* csv = nullptr;
+  std::optional<CsvFile> csv;
   if (!options.file.empty()) {
-    csv = std::fopen(options.file.c_str(), "w");
-    if (!csv) {
-      std::fprintf(stderr, "%s: cannot be written\n", options.file.c_str());
-      return 2;
-    }
-    std::fprintf(csv, "set,recording,push,model,distance_mm,angle_deg\n");
+    csv.emplace(options.file.c_str());
+    if (!csv->get()) return 2;
+    std::fprintf(csv->get(), "set,recording,push,model,distance_mm,angle_deg\n");
   }
   try {
-    run(options, csv);
+    run(options, csv ? csv->get() : nullptr);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 2;
   }
-  if (csv && std::fclose(csv) != 0) {
-    std::fprintf(stderr, "%s: cannot be written\n", options.file.c_str());
-    return 2;
-  }
-  return 0;
+  return !csv || csv->close() ? 0 : 1;
 }

@@ -76,8 +76,9 @@ struct SpatialInstant {
 };
 
 struct SpatialSolveOptions {
-  double tolerance = 1e-9;    ///< natural-map residual to reach, 1e-12..1e-6
-  int max_iterations = 8000;  ///< Newton steps in search of a motion, all starts together
+  double tolerance = 1e-9;  ///< natural-map residual to reach, 1e-12..1e-6
+  int max_iterations =
+      10000;  ///< Newton steps in search of a motion, all starts together
   bool probe_multiplicity = false;  ///< also solve from other starts, for a second motion
   bool rigid_limit = false;         ///< solve `rigid_limit_of` the problem
 };

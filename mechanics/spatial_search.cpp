@@ -7,6 +7,7 @@ namespace {
 
 constexpr int kFirstBudget = 150;
 constexpr int kBudget = 200;
+constexpr int kSpread = 12;
 constexpr double kStiff = 1e-4;      ///< compliance below which continuation comes first
 constexpr double kHeldRate = 10.0;   ///< rates of a held object, as foundations yield
 constexpr double kAtRest = 1e-7;     ///< rates of an object at rest on rigid pads
@@ -32,6 +33,23 @@ void soften(const ScaledSpatial& problem, double R, ScaledSpatial& softer) {
     const double own = problem.patch[k].R;
     softer.patch[k].R = own > 0.0 ? std::max(own, R) : 0.0;
   }
+}
+
+/// Starts far from each other: fast turns either way, on which the object may leave the
+/// pusher; the pusher's own motion; and a spread of rates.
+NewtonStart spread_start(const ScaledSpatial& problem, int trial) {
+  constexpr int kTurns = 6;
+  NewtonStart start = {.r = trial % 2 == 0 ? 0.1 : 3.0, .e = 0.1};
+  if (trial < kTurns) {
+    start.v[5 - trial / 2] = trial % 2 == 0 ? 5.0 : -5.0;
+  } else if (trial == kTurns) {
+    start.v = problem.pusher;
+  } else {
+    for (int i = 0; i < problem.freedoms; ++i) {
+      start.v[i] = 6.0 * (std::fmod(0.6180339887498949 * (8 * trial + i), 1.0) - 0.5);
+    }
+  }
+  return start;
 }
 
 /// Gravity and the drive of the jaws gain more power than pads and pusher (seen at rest)
@@ -109,6 +127,9 @@ bool SpatialSearch::solve_stubbornly() {
        {.v = along, .r = 0.03, .e = 0.1}}};
   for (const NewtonStart& start : slow) {
     if (attempt(start, 2 * kBudget)) return true;
+  }
+  for (int trial = 0; trial < kSpread; ++trial) {
+    if (attempt(spread_start(problem_, trial), kBudget)) return true;
   }
   return false;
 }
@@ -291,25 +312,10 @@ bool SpatialSearch::find_fall(bool pads_only, SpatialForces& forces,
 }
 
 bool SpatialSearch::find_other(SpatialForces& forces, SpatialRates& rates) {
-  const SpatialRates& along = problem_.pusher;
-  constexpr int kTurns = 6;
-  for (int trial = 0; trial < kTurns + 6; ++trial) {
-    // Fast turns either way, on which the object may leave the pusher; the pusher's own
-    // motion; and a spread of rates.
-    SpatialRates v = SpatialRates::Zero();
-    if (trial < kTurns) {
-      v[5 - trial / 2] = trial % 2 == 0 ? 5.0 : -5.0;
-    } else if (trial == kTurns) {
-      v = along;
-    } else {
-      for (int i = 0; i < problem_.freedoms; ++i) {
-        v[i] = 6.0 * (std::fmod(0.6180339887498949 * (8 * trial + i), 1.0) - 0.5);
-      }
-    }
+  for (int trial = 0; trial < kSpread; ++trial) {
     int steps = 0;
-    const NewtonResult other =
-        run_newton(problem_, {.v = v, .r = trial % 2 == 0 ? 0.1 : 3.0, .e = 0.1},
-                   tolerance_, kBudget, forces, steps);
+    const NewtonResult other = run_newton(problem_, spread_start(problem_, trial),
+                                          tolerance_, kBudget, forces, steps);
     steps_ += steps;
     if (!other.converged) continue;
     const double apart = (other.v - result_.v).norm();

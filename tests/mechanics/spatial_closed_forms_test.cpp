@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "mechanics/cross_section.h"
 #include "mechanics/limit_surface.h"
 #include "mechanics/spatial_instant.h"
 #include "problems/random_instants.h"
@@ -211,6 +212,12 @@ TEST(SpatialClosedForms, RollingThreshold) {
     const double F_t = traction(roll, mode);
     const double N_e = roll.weight + roll.mu * F_t;
     const double threshold = F_t / N_e;
+    const CrossSectionModel section = {.radius = roll.r,
+                                       .mass = roll.weight / 9.81,
+                                       .grip_force = roll.N,
+                                       .friction = {roll.mu, roll.mu},
+                                       .jaw_mode = mode};
+    EXPECT_NEAR(rolling_threshold(section, kRate, roll.weight), threshold, 1e-12);
     for (const double factor : {0.9, 0.9999, 1.0001, 1.1, 2.0}) {
       const SpatialProblem problem = rolling(roll, mode, factor * threshold);
       const SpatialInstant answer = certified(problem);
@@ -223,6 +230,21 @@ TEST(SpatialClosedForms, RollingThreshold) {
       EXPECT_NEAR(answer.w_push[2], F_t, 20 * kTight);
       EXPECT_NEAR(answer.w_push[0], N_e, 20 * kTight);
     }
+  }
+}
+
+TEST(SpatialClosedForms, CrossSectionKnowsJawsWithOneRateOnly) {
+  const Roll roll;
+  const CrossSectionDrive sheet = {.mu = 0.2, .sheet_rate = kRate, .weight = roll.weight};
+  for (const JawMode mode :
+       {JawMode::kCoupled, JawMode::kIndependent, JawMode::kLocked}) {
+    const CrossSectionModel section = {.radius = roll.r,
+                                       .mass = roll.weight / 9.81,
+                                       .grip_force = roll.N,
+                                       .friction = {roll.mu, roll.mu},
+                                       .jaw_mode = mode};
+    EXPECT_EQ(solve_cross_section(section, sheet).status == InstantStatus::kBadInput,
+              mode != JawMode::kCoupled);
   }
 }
 

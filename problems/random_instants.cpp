@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <numbers>
 
+#include "problems/gauss_product.h"
 #include "problems/random_stream.h"
 
 namespace prehensile {
@@ -12,49 +12,9 @@ namespace {
 
 constexpr double kGravity = 9.81;
 
-/// Gauss-Legendre rule on [-1, 1], weights summing to 1.
-struct Rule {
-  int count;
-  std::array<double, 8> node;
-  std::array<double, 8> weight;
-};
-
-Rule gauss(int count) {
-  switch (count) {
-    case 1:
-      return {1, {0.0}, {1.0}};
-    case 2:
-      return {2, {-0.57735026918962576, 0.57735026918962576}, {0.5, 0.5}};
-    case 4:
-      return {4,
-              {-0.86113631159405258, -0.33998104358485626, 0.33998104358485626,
-               0.86113631159405258},
-              {0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
-               0.17392742256872693}};
-    default:
-      assert(count == 8);
-      return {8,
-              {-0.96028985649753623, -0.79666647741362674, -0.52553240991632899,
-               -0.18343464249564980, 0.18343464249564980, 0.52553240991632899,
-               0.79666647741362674, 0.96028985649753623},
-              {0.05061426814518813, 0.11119051722668724, 0.15685332293894364,
-               0.18134189168918099, 0.18134189168918099, 0.15685332293894364,
-               0.11119051722668724, 0.05061426814518813}};
-  }
-}
-
-/// Splits the number of points into the sides of a product grid: 8 = 4 x 2.
-Rule gauss_along(int points, bool first) {
-  int sides[2] = {1, 1};
-  for (int side = 0; sides[0] * sides[1] < points; side = 1 - side) sides[side] *= 2;
-  assert(sides[0] * sides[1] == points);
-  return gauss(sides[first ? 0 : 1]);
-}
-
 void place_pad(int points, double angle, const Vec2& half, double capacity,
                PlanarGrasp& grasp) {
-  const Rule along = gauss_along(points, true);
-  const Rule across = gauss_along(points, false);
+  const auto [along, across] = gauss_product(points);
   grasp.count = 0;
   for (int i = 0; i < along.count; ++i) {
     for (int j = 0; j < across.count; ++j) {

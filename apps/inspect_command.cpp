@@ -24,8 +24,11 @@ nlohmann::ordered_json to_json(const Model& model) {
                         {"face", model.faces[contact.face].name},
                         {"points", size.pusher_points},
                         {"unknowns", size.unknowns},
+                        {"generators", size.generators},
                         {"reference_unknowns", size.reference_unknowns},
                         {"reference_constraints", size.reference_constraints},
+                        {"spatial_unknowns", size.spatial_unknowns},
+                        {"spatial_points", size.spatial_points},
                         {"gravity_in_object", numbers(contact.g_O)}});
   }
   nlohmann::ordered_json decisions = nlohmann::ordered_json::array();
@@ -58,15 +61,18 @@ void print(const Model& model) {
               model.mass, to_mm(model.p_OCom.x()), to_mm(model.p_OCom.y()),
               to_mm(model.L));
   if (!model.contacts.empty()) {
-    Table table({"contact", "points", "exact unknowns", "reference unknowns (g=8)",
-                 "reference rows", "gravity in O m/s^2"});
+    Table table({"contact", "points", "exact: unknowns", "reference (g=8): generators",
+                 "unknowns", "rows", "spatial: unknowns", "points",
+                 "gravity in O m/s^2"});
     for (std::size_t i = 0; i < model.contacts.size(); ++i) {
       const int index = static_cast<int>(i);
       const ProblemSize size = size_of_problem(model, index);
       const Vec2& g = model.contacts[i].g_O;
       table.add({contact_text(model, index), text("%d", size.pusher_points),
-                 text("%d", size.unknowns), text("%d", size.reference_unknowns),
+                 text("%d", size.unknowns), text("%d", size.generators),
+                 text("%d", size.reference_unknowns),
                  text("%d", size.reference_constraints),
+                 text("%d", size.spatial_unknowns), text("%d", size.spatial_points),
                  text("(%.2f, %.2f)", g.x(), g.y())});
     }
     std::fputs(table.str().c_str(), stdout);

@@ -87,6 +87,64 @@ std::string roll_forces(const CrossSectionForces& forces,
   return table.str();
 }
 
+/// A change that people can picture, in SI and in words.
+struct Step {
+  double size;
+  const char* text;
+};
+
+Step step_of(InstantParameter parameter) {
+  switch (parameter) {
+    case InstantParameter::kGripForce:
+      return {1.0, "+1 N"};
+    case InstantParameter::kMass:
+      return {0.1, "+0.1 kg"};
+    case InstantParameter::kPlace:
+      return {1e-3, "+1 mm"};
+    case InstantParameter::kDirection:
+      return {0.017453292519943295, "+1 deg"};
+    default:
+      return {0.1, "+0.1"};
+  }
+}
+
+std::string sensitivity_text(const InstantReport& report) {
+  if (report.sensitivities.empty()) return {};
+  if (!report.sensitivities.front().valid()) {
+    return "sensitivities: none, because the answer does not change smoothly here\n";
+  }
+  Table table(
+      {"if this changes", "by", "push force N", "v_x mm/s", "v_y mm/s", "turn deg/s"});
+  for (std::size_t i = 0; i < report.sensitivities.size(); ++i) {
+    const auto parameter = static_cast<InstantParameter>(i);
+    const PlanarSensitivity& change = report.sensitivities[i];
+    const auto [size, words] = step_of(parameter);
+    table.add({std::string(name(parameter)), words,
+               text("%+.4f", size * change.push_force),
+               text("%+.4f", to_mm(size * change.V_HO[0])),
+               text("%+.4f", to_mm(size * change.V_HO[1])),
+               text("%+.4f", to_deg(size * change.V_HO[2]))});
+  }
+  return "sensitivities (linear):\n" + table.str() +
+         text("nearest change of mode: %.2e of capacity or push rate away%s\n",
+              report.mode_slack,
+              report.mode_slack < 1e-6 ? "; the derivatives hold on one side only" : "");
+}
+
+nlohmann::ordered_json sensitivity_json(const InstantReport& report) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < report.sensitivities.size(); ++i) {
+    const auto parameter = static_cast<InstantParameter>(i);
+    const PlanarSensitivity& change = report.sensitivities[i];
+    rows.push_back({{"parameter", std::string(name(parameter))},
+                    {"per", std::string(unit(parameter))},
+                    {"push_force", number(change.push_force)},
+                    {"push_wrench", numbers(change.w_push)},
+                    {"object_twist", numbers(change.V_HO)}});
+  }
+  return rows;
+}
+
 nlohmann::ordered_json points_json(const InstantReport& report) {
   nlohmann::ordered_json points = nlohmann::ordered_json::array();
   for (int i = 0; i < report.instant.pusher_count; ++i) {
@@ -167,6 +225,7 @@ std::string describe(const InstantReport& report) {
     out += pusher_table(report);
     if (now.finger_count > 0) out += finger_table(report);
   }
+  out += sensitivity_text(report);
   out += text("solver %s: %d iterations, residual %.1e\n", report.solver.c_str(),
               now.iterations, now.residual);
   return out + certificate_text(report);
@@ -179,20 +238,26 @@ nlohmann::ordered_json to_json(const InstantReport& report) {
     const auto check = static_cast<Certificate::Check>(i);
     certificate[std::string(name(check))] = number(report.certificate.entries[i].value);
   }
-  return {{"question", report.question},
-          {"solver", report.solver},
-          {"status", std::string(name(now.status))},
-          {"meaning", meaning_of(report)},
-          {"push_force", number(now.push_force)},
-          {"push_wrench", numbers(now.w_push)},
-          {"object_twist", numbers(now.V_HO)},
-          {"evidence", numbers(now.evidence)},
-          {"other_twist", numbers(now.other)},
-          {"force_interval", {number(now.force_low), number(now.force_high)}},
-          {"iterations", now.iterations},
-          {"residual", number(now.residual)},
-          {"certificate", certificate},
-          {"points", points_json(report)}};
+  nlohmann::ordered_json out = {
+      {"question", report.question},
+      {"solver", report.solver},
+      {"status", std::string(name(now.status))},
+      {"meaning", meaning_of(report)},
+      {"push_force", number(now.push_force)},
+      {"push_wrench", numbers(now.w_push)},
+      {"object_twist", numbers(now.V_HO)},
+      {"evidence", numbers(now.evidence)},
+      {"other_twist", numbers(now.other)},
+      {"force_interval", {number(now.force_low), number(now.force_high)}},
+      {"iterations", now.iterations},
+      {"residual", number(now.residual)},
+      {"certificate", certificate},
+      {"points", points_json(report)}};
+  if (!report.sensitivities.empty()) {
+    out["sensitivities"] = sensitivity_json(report);
+    out["mode_slack"] = number(report.mode_slack);
+  }
+  return out;
 }
 
 std::string describe(const RollReport& report) {

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "mechanics/certificate.h"
 #include "mechanics/cross_section.h"
 #include "mechanics/instant.h"
+#include "mechanics/sensitivity.h"
 
 namespace prehensile::apps {
 
@@ -21,6 +23,10 @@ struct InstantReport {
   PlanarInstant instant;
   Certificate certificate;  ///< entries are NaN for the closed form, which has no points
   double certificate_worst = kNan;
+
+  /// By InstantParameter, if asked for; empty otherwise.
+  std::vector<PlanarSensitivity> sensitivities;
+  double mode_slack = kNan;  ///< see DifferentiatedInstant
 };
 
 std::string describe(const InstantReport& report);

@@ -33,6 +33,7 @@ struct Options {
   double height_mm = 0.0;
   double rise_mm_s = 0.0;
   bool compare = false;
+  bool sensitivity = false;
   bool roll = false;
 
   bool in_plane() const { return height_mm == 0.0 && rise_mm_s == 0.0; }
@@ -99,6 +100,17 @@ void solve(const Options& options, const Model& model, InstantReport& report) {
   report.certificate_worst = report.certificate.worst;
 }
 
+void differentiate(const Options& options, const Model& model, int contact,
+                   const Grasp& grasp, InstantReport& report) {
+  const DifferentiatedInstant differentiated(report.grasp, report.drive, report.instant);
+  report.mode_slack = differentiated.mode_slack();
+  for (int i = 0; i < static_cast<int>(InstantParameter::kCount); ++i) {
+    report.sensitivities.push_back(differentiated.along(
+        variation_of(model, model.contacts[contact], 1e-3 * options.push.place_mm,
+                     grasp.X_HO, report.drive.V_HP, static_cast<InstantParameter>(i))));
+  }
+}
+
 /// Refuses combinations that ask for what a solver cannot answer.
 void check_options(const Options& options) {
   const bool spatial = options.solver == "spatial";
@@ -107,6 +119,10 @@ void check_options(const Options& options) {
     throw BadInput(
         "--acceleration: expected --solver exact or ipopt: the others are asked in the "
         "quasi-static limit");
+  }
+  if (options.sensitivity &&
+      (options.solver != "exact" || options.compare || options.acceleration > 0.0)) {
+    throw BadInput("--sensitivity: expected --solver exact in the quasi-static limit");
   }
   if (options.speed_mm_s == 0.0 && options.turn_deg_s == 0.0 &&
       options.rise_mm_s == 0.0) {
@@ -195,6 +211,7 @@ int run(const Options& options) {
     return kDone;
   }
   solve(options, model, report);
+  if (options.sensitivity) differentiate(options, model, contact, grasp, report);
   return print(report, options.scene.json);
 }
 
@@ -240,6 +257,9 @@ Command add_query_instant(CLI::App& query) {
       .add_option("--rise-mm-s", options->rise_mm_s,
                   "of the pusher along the closing direction; spatial solver")
       ->check(CLI::Range(-1e6, 1e6));
+  command.add_flag("--sensitivity", options->sensitivity,
+                   "how the answer changes with frictions, grip force, mass, place and "
+                   "direction");
   command.add_flag("--compare", options->compare,
                    "all solvers of this build side by side");
   command.add_flag("--roll", options->roll,

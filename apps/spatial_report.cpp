@@ -70,6 +70,21 @@ std::string certificate_text(const SpatialCertificate& certificate) {
   return out;
 }
 
+/// Of a spatial instant less is known than of a planar one: it is certified, but other
+/// motions are not searched for.
+const char* meaning_in_space(InstantStatus status) {
+  if (status == InstantStatus::kMoves) {
+    return "the grasp breaks and the object moves, while the pads alone hold gravity; "
+           "other motions are not searched for";
+  }
+  if (status == InstantStatus::kDynamic) {
+    return "the object falls: the motion shown is certified, that nothing else is "
+           "possible "
+           "is not proved";
+  }
+  return meaning(status);
+}
+
 nlohmann::ordered_json points_json(const SpatialReport& report) {
   nlohmann::ordered_json points = nlohmann::ordered_json::array();
   for (int p = 0; p < report.problem.patch_count; ++p) {
@@ -93,7 +108,7 @@ nlohmann::ordered_json points_json(const SpatialReport& report) {
 std::string describe(const SpatialReport& report) {
   const SpatialInstant& now = report.instant;
   std::string out = report.question + '\n';
-  out += std::string(name(now.status)) + ": " + meaning(now.status) + '\n';
+  out += std::string(name(now.status)) + ": " + meaning_in_space(now.status) + '\n';
   if (usable(now.status)) {
     out += text(
         "push force %.6g N: (%.4f, %.4f, %.4f) N on the object, moment (%.4f, %.4f, "
@@ -131,7 +146,7 @@ nlohmann::ordered_json to_json(const SpatialReport& report) {
   return {{"question", report.question},
           {"solver", "spatial"},
           {"status", std::string(name(now.status))},
-          {"meaning", meaning(now.status)},
+          {"meaning", meaning_in_space(now.status)},
           {"push_force", number(now.push_force)},
           {"push_wrench", numbers(now.w_push)},
           {"object_twist", numbers(now.V_HO)},

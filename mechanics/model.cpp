@@ -121,6 +121,7 @@ Model prepare(const Scene& scene, const PrepareOptions& options) {
       (scene.gripper.friction[0] + scene.gripper.friction[1]) * scene.gripper.grip_force;
   model.c = model.region.torque_radius();
   model.L = longer_side(model.outline);
+  model.half_thickness = half_thickness(scene.object.shape);
   if (can_roll(scene.object)) model.cross_section = make_cross_section(scene);
   explain(scene, model);
   return model;

@@ -66,6 +66,7 @@ struct Model {
   double F = 0.0;              ///< [N] (mu_1 + mu_2) x grip force
   double c = 0.0;              ///< [m] torque radius of the whole pad region
   double L = 0.0;              ///< [m] longer side of the object: unit of travel in costs
+  double half_thickness = 0.0;  ///< [m] the pads touch the object at z = -/+ this
   LimitSurface surface() const { return {F, c}; }
 
   /// Rolling; absent unless the object is round and lies between the jaws.

@@ -1,9 +1,12 @@
 #include "mechanics/size_of_problem.h"
 
+#include "mechanics/spatial_problem.h"
+
 namespace prehensile {
 namespace {
 
 constexpr int kTwist = 3;
+constexpr int kSpatialTwist = 6;
 constexpr int kGeneratorsOfPusherPoint = 2;  // in the plane: forwards and backwards
 
 }  // namespace
@@ -19,6 +22,10 @@ ProblemSize size_of_problem(const Model& model, int contact, int generators_per_
       c.mu > 0.0 ? kGeneratorsOfPusherPoint * size.pusher_points : 0;
   const int rubbing_points = size.finger_points + (c.mu > 0.0 ? size.pusher_points : 0);
   size.generators = generators_per_point * size.finger_points + pusher_generators;
+  SpatialProblem spatial;
+  spatial.jaw_mode = model.scene.gripper.jaw_mode;
+  size.spatial_unknowns = kSpatialTwist + jaw_freedoms(spatial).count;
+  size.spatial_points = 2 * size.finger_points + size.pusher_points;
 
   // One lambda_n per pusher point (finger loads are known), one beta per generator, one
   // xi per rubbing point; rows: balance, gaps, eq. (4) per generator, eq. (3) per rubbing

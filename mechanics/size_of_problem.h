@@ -13,6 +13,8 @@ struct ProblemSize {
   int finger_points = 0;          ///< merged points of the two pads
   int pusher_points = 0;          ///< 1 point, 2 line
   int generators = 0;             ///< friction generators of all points, paper eq. (2)
+  int spatial_unknowns = 0;       ///< exact spatial solver: object twist and jaw rates
+  int spatial_points = 0;         ///< of both pads and the pusher
   int reference_unknowns = 0;     ///< lambda_n, beta, xi and twist of the paper's problem
   int reference_constraints = 0;  ///< its linear rows
 };

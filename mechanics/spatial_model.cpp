@@ -6,14 +6,6 @@
 namespace prehensile {
 namespace {
 
-struct HalfThickness {
-  double operator()(const BoxShape& box) const { return 0.5 * box.size.z(); }
-  double operator()(const CylinderShape& cylinder) const {
-    return cylinder.axis == Axis::kZ ? 0.5 * cylinder.length : cylinder.radius;
-  }
-  double operator()(const PrismShape& prism) const { return 0.5 * prism.thickness; }
-};
-
 void add_pad(const Gripper& gripper, ContactBody body, double z, double compliance,
              const ContactPoints& points, SpatialProblem& problem) {
   ContactPatch& patch = problem.patch[problem.patch_count++];
@@ -59,10 +51,6 @@ double rate_of(const PlanarDrive& drive, double out_of_plane_rate) {
 
 }  // namespace
 
-double half_thickness(const Object& object) {
-  return std::visit(HalfThickness{}, object.shape);
-}
-
 SpatialProblem spatial_problem_at(const Model& model, const PushContact& contact,
                                   double place, const PlanarPose& X_HO,
                                   const PlanarTwist& V_HP,
@@ -78,7 +66,7 @@ SpatialProblem spatial_problem_at(const Model& model, const PushContact& contact
                        std::max({1.0, gripper.friction[0], gripper.friction[1]});
   const double compliance = out_of_plane.compliance * rate_of(drive, out_of_plane.rate) /
                             (force > 0.0 ? force : 1.0);
-  const double z = half_thickness(model.scene.object);
+  const double z = model.half_thickness;
   add_pad(gripper, ContactBody::kJaw1, -z, compliance, points, problem);
   add_pad(gripper, ContactBody::kJaw2, z, compliance, points, problem);
   add_pusher(drive, out_of_plane.height, problem);

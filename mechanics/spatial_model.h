@@ -17,9 +17,6 @@ struct OutOfPlane {
   double compliance = 1e-3;
 };
 
-/// Half of the object's size between the jaws [m]: the pads touch at z = -/+ this.
-double half_thickness(const Object& object);
-
 /// The quasi-static question for this contact at a pose: `place` as in
 /// PushContact::segment, `V_HP` the pusher's twist in the pad plane. The centre of mass
 /// lies in the mid-plane. No points (count 0) where the pads have lost the face, or where

@@ -79,6 +79,14 @@ bool segments_touch(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) 
   return (abc > 0.0) != (abd > 0.0) && (cda > 0.0) != (cdb > 0.0);
 }
 
+struct HalfThickness {
+  double operator()(const BoxShape& box) const { return 0.5 * box.size.z(); }
+  double operator()(const CylinderShape& cylinder) const {
+    return cylinder.axis == Axis::kZ ? 0.5 * cylinder.length : cylinder.radius;
+  }
+  double operator()(const PrismShape& prism) const { return 0.5 * prism.thickness; }
+};
+
 }  // namespace
 
 std::vector<Vec2> outline_of(const Shape& shape) {
@@ -196,6 +204,8 @@ double longer_side(const std::vector<Vec2>& outline) {
   }
   return (high - low).maxCoeff();
 }
+
+double half_thickness(const Shape& shape) { return std::visit(HalfThickness{}, shape); }
 
 Vec2 centre_of_mass(const Object& object) {
   if (object.p_OCom) return *object.p_OCom;

@@ -60,6 +60,9 @@ bool is_simple(const std::vector<Vec2>& outline);
 /// Longer side of the object in the pad plane: L of the plan cost [m].
 double longer_side(const std::vector<Vec2>& outline);
 
+/// Half of the object's size between the jaws [m]: the pads touch at z = -/+ this.
+double half_thickness(const Shape& shape);
+
 /// Centre of mass in O: as given, or of the homogeneous shape [m].
 Vec2 centre_of_mass(const Object& object);
 

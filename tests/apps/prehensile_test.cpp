@@ -69,6 +69,27 @@ TEST(Program, SpatialSolverTakesPushersOffTheMidPlane) {
   EXPECT_EQ(run_program(slide + "--solver spatial --acceleration 1").exit_code, 2);
 }
 
+TEST(Program, SensitivitiesAreThoseOfTheForce) {
+  const std::string pivot = "query instant problems/paper/pivot.yaml --json ";
+  const Outcome told = run_program(pivot + "--sensitivity");
+  ASSERT_EQ(told.exit_code, 0) << told.out << told.err;
+  const json answer = json::parse(told.out);
+  const auto force = [&](const char* grip) {
+    const Outcome out =
+        run_program(pivot + "--set gripper.grip_force=" + std::string(grip));
+    return json::parse(out.out).at("push_force").get<double>();
+  };
+  const double grip = 1e-3;
+  const json scene = answer.at("sensitivities");
+  for (const json& row : scene) {
+    if (row.at("parameter") != "grip force") continue;
+    const double slope = (force("20.001") - force("19.999")) / (2.0 * grip);
+    EXPECT_NEAR(row.at("push_force"), slope, 0.05 * std::abs(slope) + 1e-3);
+  }
+  EXPECT_EQ(scene.size(), 7U);
+  EXPECT_EQ(run_program(pivot + "--sensitivity --solver closed").exit_code, 2);
+}
+
 TEST(Program, ComparesAllSolversOfThisBuild) {
   const Outcome compared =
       run_program("query instant problems/paper/pivot.yaml --compare --json --points 4");

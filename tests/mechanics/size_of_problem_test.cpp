@@ -85,6 +85,21 @@ TEST(SizeOfProblem, TenScenes) {
   }
 }
 
+TEST(SizeOfProblem, JawsAddTheFreedomsTheyHave) {
+  const std::pair<JawMode, int> cases[] = {{JawMode::kCoupled, 7},
+                                           {JawMode::kFixedJaw1, 7},
+                                           {JawMode::kFixedJaw2, 7},
+                                           {JawMode::kIndependent, 8},
+                                           {JawMode::kLocked, 6}};
+  for (const auto& [mode, unknowns] : cases) {
+    Scene scene = base_scene();
+    scene.gripper.jaw_mode = mode;
+    const ProblemSize size = size_of_problem(prepare(scene), 0);
+    EXPECT_EQ(size.spatial_unknowns, unknowns);
+    EXPECT_EQ(size.spatial_points, 2 * size.finger_points + size.pusher_points);
+  }
+}
+
 TEST(SizeOfProblem, NoGravityGivesNoWrench) {
   Scene scene = base_scene();
   scene.g_W = Vec2::Zero();

@@ -25,18 +25,6 @@ Scene box_scene() {
   return scene;
 }
 
-TEST(HalfThickness, IsThatOfTheShape) {
-  Object object;
-  object.shape = BoxShape{{1.0, 2.0, 3.0}};
-  EXPECT_EQ(half_thickness(object), 1.5);
-  object.shape = CylinderShape{.radius = 0.2, .length = 0.5, .axis = Axis::kZ};
-  EXPECT_EQ(half_thickness(object), 0.25);
-  object.shape = CylinderShape{.radius = 0.2, .length = 0.5, .axis = Axis::kX};
-  EXPECT_EQ(half_thickness(object), 0.2);
-  object.shape = PrismShape{.outline = {}, .thickness = 0.04};
-  EXPECT_EQ(half_thickness(object), 0.02);
-}
-
 /// In the mid-plane both solvers answer the same question.
 TEST(SpatialModel, AgreesWithThePlanarQuestionInTheMidPlane) {
   const Model model = prepare(box_scene());

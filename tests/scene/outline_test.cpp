@@ -84,5 +84,14 @@ TEST(Outline, InertiaOfKnownBodies) {
   EXPECT_NEAR(moment_of_inertia(disc), 0.5 * 0.5 * 4e-4, 1e-12);
 }
 
+TEST(HalfThickness, IsThatOfTheShape) {
+  EXPECT_EQ(half_thickness(BoxShape{{1.0, 2.0, 3.0}}), 1.5);
+  EXPECT_EQ(half_thickness(CylinderShape{.radius = 0.2, .length = 0.5, .axis = Axis::kZ}),
+            0.25);
+  EXPECT_EQ(half_thickness(CylinderShape{.radius = 0.2, .length = 0.5, .axis = Axis::kX}),
+            0.2);
+  EXPECT_EQ(half_thickness(PrismShape{.outline = {}, .thickness = 0.04}), 0.02);
+}
+
 }  // namespace
 }  // namespace prehensile

@@ -160,6 +160,11 @@ std::string question_text(const Options& options, const Model& model, int contac
 
 SpatialProblem spatial_question(const Options& options, const Model& model, int contact,
                                 const Grasp& grasp, const PlanarTwist& V_HP) {
+  const double most = to_mm(model.half_thickness);
+  if (std::abs(options.height_mm) > most) {
+    throw BadInput(text("--height-mm %g: expected -%g to %g, where the object is",
+                        options.height_mm, most, most));
+  }
   const SpatialProblem problem = spatial_problem_at(
       model, model.contacts[contact], 1e-3 * options.push.place_mm, grasp.X_HO, V_HP,
       {.height = 1e-3 * options.height_mm, .rate = 1e-3 * options.rise_mm_s});

@@ -66,6 +66,7 @@ TEST(Program, SpatialSolverTakesPushersOffTheMidPlane) {
   EXPECT_LT(json::parse(above.out).at("certificate").at("worst"), 1e-6);
   EXPECT_NE(json::parse(above.out).at("object_twist")[4], 0.0);
   EXPECT_EQ(run_program(slide + "--height-mm 5").exit_code, 2);
+  EXPECT_EQ(run_program(slide + "--solver spatial --height-mm 13").exit_code, 2);
   EXPECT_EQ(run_program(slide + "--solver spatial --acceleration 1").exit_code, 2);
 }
 

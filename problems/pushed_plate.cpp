@@ -31,7 +31,7 @@ PadCell square_cell(const Vec2& centre, double side) {
 }
 
 /// Cells of this side that overlap the outline, each by its part inside.
-Plate over_grid(std::vector<Vec2> outline, double side) {
+Plate over_grid(const std::vector<Vec2>& outline, double side) {
   Vec2 low = outline[0];
   Vec2 high = outline[0];
   for (const Vec2& vertex : outline) {
@@ -53,7 +53,7 @@ Plate over_grid(std::vector<Vec2> outline, double side) {
   }
   const double sum = std::accumulate(plate.shares.begin(), plate.shares.end(), 0.0);
   for (double& share : plate.shares) share /= sum;
-  plate.outline = std::move(outline);
+  plate.outline = outline;
   return plate;
 }
 
@@ -196,7 +196,7 @@ double Plate::torque_radius() const {
   return sum;
 }
 
-Plate uniform_plate(std::vector<Vec2> outline, int points) {
+Plate uniform_plate(const std::vector<Vec2>& outline, int points) {
   double side = std::sqrt(properties_of(outline).area / points);
   Plate plate = over_grid(outline, side);
   while (plate.support.size() > kMostPoints) {

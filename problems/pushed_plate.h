@@ -23,7 +23,7 @@ struct Plate {
 
 /// The outline carries the plate with uniform pressure: about `points` points (at most
 /// 90) at the centroids of equal cells of a grid.
-Plate uniform_plate(std::vector<Vec2> outline, int points);
+Plate uniform_plate(const std::vector<Vec2>& outline, int points);
 
 enum class SupportModel {
   kPoints,     ///< exact friction of the points (solve_planar)

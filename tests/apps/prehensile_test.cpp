@@ -81,13 +81,13 @@ TEST(Program, SensitivitiesAreThoseOfTheForce) {
     return json::parse(out.out).at("push_force").get<double>();
   };
   const double grip = 1e-3;
-  const json scene = answer.at("sensitivities");
-  for (const json& row : scene) {
+  const json& rows = answer.at("sensitivities");
+  for (const json& row : rows) {
     if (row.at("parameter") != "grip force") continue;
     const double slope = (force("20.001") - force("19.999")) / (2.0 * grip);
     EXPECT_NEAR(row.at("push_force"), slope, 0.05 * std::abs(slope) + 1e-3);
   }
-  EXPECT_EQ(scene.size(), 7U);
+  EXPECT_EQ(rows.size(), 7U);
   EXPECT_EQ(run_program(pivot + "--sensitivity --solver closed").exit_code, 2);
 }
 

@@ -19,9 +19,12 @@ thread_local long allocation_count = 0;
 
 #if PREHENSILE_COUNT_HEAP
 extern "C" {
+// The names are those of glibc.
+// NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* old, std::size_t size);
+// NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)
 
 void* malloc(std::size_t size) {
   ++allocation_count;
@@ -41,7 +44,6 @@ void* realloc(void* old, std::size_t size) {
 namespace prehensile::testing {
 
 NoHeapScope::NoHeapScope() : at_start_(allocation_count) {}
-NoHeapScope::~NoHeapScope() = default;
 
 long NoHeapScope::allocations() const {
   return heap_is_counted() ? allocation_count - at_start_ : -1;

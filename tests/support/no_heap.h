@@ -7,7 +7,6 @@ namespace prehensile::testing {
 class NoHeapScope {
  public:
   NoHeapScope();
-  ~NoHeapScope();
   NoHeapScope(const NoHeapScope&) = delete;
   NoHeapScope& operator=(const NoHeapScope&) = delete;
 

@@ -140,10 +140,6 @@ void check_fingers(const PlanarGrasp& grasp, const PlanarInstant& answer,
   }
 }
 
-bool has_motion(InstantStatus status) {
-  return usable(status) || status == InstantStatus::kAmbiguous;
-}
-
 }  // namespace
 
 std::string_view name(Certificate::Check check) {

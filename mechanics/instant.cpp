@@ -33,6 +33,10 @@ bool usable(InstantStatus status) {
          status == InstantStatus::kNonuniqueForces || status == InstantStatus::kSeparated;
 }
 
+bool has_motion(InstantStatus status) {
+  return usable(status) || status == InstantStatus::kAmbiguous;
+}
+
 std::string_view name(ContactMode mode) {
   switch (mode) {
     case ContactMode::kOpen:

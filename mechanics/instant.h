@@ -38,6 +38,9 @@ std::string_view name(InstantStatus status);
 /// True if twist and forces may be used.
 bool usable(InstantStatus status);
 
+/// True if twist and forces describe a motion: usable, or one of several.
+bool has_motion(InstantStatus status);
+
 enum class ContactMode { kOpen, kStick, kSlipPlus, kSlipMinus, kSlip };
 std::string_view name(ContactMode mode);
 

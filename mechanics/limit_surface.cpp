@@ -113,10 +113,6 @@ double contact_violation(const PusherPoint& point, double mu, const Vec2& rate, 
   return worse(worse(unilateral, cone), worse(std::abs(power), kinematics));
 }
 
-bool has_motion(InstantStatus status) {
-  return usable(status) || status == InstantStatus::kAmbiguous;
-}
-
 }  // namespace
 
 double limit_surface_residual(const LimitSurface& surface, const PlanarWrench& w_g,

@@ -177,10 +177,6 @@ void check_hold(const Question& q, const SpatialInstant& answer, Findings& findi
   check_balance(q, answer.evidence, answer.other_force, false, findings);
 }
 
-bool has_motion(InstantStatus status) {
-  return usable(status) || status == InstantStatus::kAmbiguous;
-}
-
 }  // namespace
 
 std::string_view name(SpatialCertificate::Check check) {

@@ -48,7 +48,9 @@ TEST(Program, EveryShippedProblemIsPlannedAndChecked) {
 TEST(Program, ReferenceSaysWhyTheCircularCertificateRejectsIt) {
   const Outcome instant = run_program(
       "query instant problems/paper/pivot.yaml --solver ipopt --turn-deg-s 40");
-  if (instant.exit_code != 0) GTEST_SKIP() << instant.out;
+  if (instant.out.find("not part of this build") != std::string::npos) {
+    GTEST_SKIP() << instant.out;
+  }
   EXPECT_NE(instant.out.find("polyhedra inside the circular ones"), std::string::npos)
       << instant.out;
 }

@@ -94,14 +94,27 @@ TEST(WriteAtomically, ADiskWithoutRoomLeavesTheOldFileAndNothingElse) {
   EXPECT_EQ(entries(file.parent_path()), 1);
 }
 
+/// Root may write everywhere, so it asks as a user without rights.
 TEST(WriteAtomically, AFolderThatMayNotBeWrittenIsRefused) {
-  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
   const Folder folder;
+  const fs::perms read_only = fs::perms::owner_read | fs::perms::owner_exec |
+                              fs::perms::others_read | fs::perms::others_exec;
   fs::create_directory(folder / "closed");
-  fs::permissions(folder / "closed", fs::perms::owner_read | fs::perms::owner_exec);
+  fs::permissions(folder / "closed", read_only);
+  fs::permissions((folder / "closed").parent_path(),
+                  fs::perms::others_read | fs::perms::others_exec, fs::perm_options::add);
   const fs::path file = folder / "closed" / "plan.json";
-  EXPECT_EQ(message_of([&] { write_atomically(file, "text"); }),
-            file.string() + ": cannot be written: Permission denied");
+  const std::string expected = file.string() + ": cannot be written: Permission denied";
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    constexpr uid_t kNobody = 65534;
+    if (::geteuid() == 0 && ::seteuid(kNobody) != 0) ::_exit(2);
+    ::_exit(message_of([&] { write_atomically(file, "text"); }) == expected ? 0 : 1);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
   EXPECT_EQ(entries(folder / "closed"), 0);
 }
 

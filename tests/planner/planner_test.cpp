@@ -109,7 +109,7 @@ TEST(Planner, ConstructionsReplay) {
 }
 
 TEST(Planner, DirectPushUsesNoHeap) {
-  if (!testing::heap_is_counted()) GTEST_SKIP();
+  if (!testing::heap_is_counted()) GTEST_SKIP() << "a sanitizer owns the heap";
   int direct = 0;
   for (int i = 0; i < kPublishedRegrasps; ++i) {
     const Model model = prepare(published_square(i));

@@ -35,6 +35,23 @@ std::string finger_table(const InstantReport& report) {
   return table.str();
 }
 
+/// What decides the answer: how many points of pusher and pads do what.
+std::string modes_in_words(const InstantReport& report) {
+  const PlanarInstant& now = report.instant;
+  std::string out = "pusher:";
+  for (int i = 0; i < now.pusher_count; ++i) {
+    out += i == 0 ? " " : ", ";
+    out += name(now.pusher[i].mode);
+  }
+  int sticking = 0;
+  for (int j = 0; j < now.finger_count; ++j) {
+    if (now.finger[j].mode == ContactMode::kStick) ++sticking;
+  }
+  if (now.finger_count == 0) return out + "; pads: as a whole\n";
+  return out + text("; pads: %d of %d points slip\n", now.finger_count - sticking,
+                    now.finger_count);
+}
+
 std::string certificate_text(const InstantReport& report) {
   std::string out = text(
       "certificate: worst %.1e (units of force, rate and length of the "
@@ -212,6 +229,7 @@ std::string describe(const InstantReport& report) {
       out += text("normal push force anywhere in [%.4f, %.4f] N\n", now.force_low,
                   now.force_high);
     }
+    out += modes_in_words(report);
   }
   if (now.evidence.allFinite()) {
     out += text("evidence twist: %.4f, %.4f mm/s, %.4f deg/s\n", to_mm(now.evidence[0]),
@@ -228,6 +246,9 @@ std::string describe(const InstantReport& report) {
   out += sensitivity_text(report);
   out += text("solver %s: %d iterations, residual %.1e\n", report.solver.c_str(),
               now.iterations, now.residual);
+  if (!report.why_this_solver.empty()) {
+    out += "  chosen because " + report.why_this_solver + '\n';
+  }
   return out + certificate_text(report);
 }
 
@@ -241,6 +262,7 @@ nlohmann::ordered_json to_json(const InstantReport& report) {
   nlohmann::ordered_json out = {
       {"question", report.question},
       {"solver", report.solver},
+      {"why_this_solver", report.why_this_solver},
       {"status", std::string(name(now.status))},
       {"meaning", meaning_of(report)},
       {"push_force", number(now.push_force)},

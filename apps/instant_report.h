@@ -18,6 +18,7 @@ namespace prehensile::apps {
 struct InstantReport {
   std::string question;  ///< one line for people
   std::string solver;
+  std::string why_this_solver;  ///< empty: the user chose it
   PlanarGrasp grasp;
   PlanarDrive drive;
   PlanarInstant instant;

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <memory>
 #include <numbers>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 
@@ -13,9 +14,7 @@
 #include "apps/spatial_report.h"
 #include "apps/table.h"
 #include "io/scene_file.h"
-#include "mechanics/planar_instant.h"
-#include "mechanics/reference.h"
-#include "mechanics/spatial_model.h"
+#include "mechanics/solvers.h"
 #include "primitives/roll.h"
 
 namespace prehensile::apps {
@@ -26,18 +25,32 @@ struct Options {
   PushOptions push;
   double speed_mm_s = 10.0;
   double turn_deg_s = 0.0;
+  double rise_mm_s = 0.0;
+  std::vector<double> tilt_deg_s;
+  std::optional<double> height_mm;
   double acceleration = 0.0;
-  std::string solver = "exact";
+  std::string solver = "auto";
   int generators = 8;
   int points = 16;
-  double height_mm = 0.0;
-  double rise_mm_s = 0.0;
   bool compare = false;
   bool sensitivity = false;
+  bool probe = false;
+  bool rigid_limit = false;
   bool roll = false;
 
-  bool in_plane() const { return height_mm == 0.0 && rise_mm_s == 0.0; }
+  bool moves() const {
+    return speed_mm_s != 0.0 || turn_deg_s != 0.0 || rise_mm_s != 0.0 ||
+           !tilt_deg_s.empty();
+  }
 };
+
+Solver solver_called(const std::string& word) {
+  for (const Solver solver : built_solvers()) {
+    if (name(solver) == word) return solver;
+  }
+  if (word == name(Solver::kChoose)) return Solver::kChoose;
+  throw BadInput("--solver " + word + ": not part of this build");
+}
 
 template <typename Report>
 int print(const Report& report, bool json) {
@@ -73,70 +86,36 @@ int ask_roll(const Options& options, const Model& model, int contact) {
   return print(report, options.scene.json);
 }
 
-/// Twist of the pusher in H: the direction is given in O, the rate of turn about the
-/// finger axis.
-PlanarTwist pusher_rate(const Options& options, const Grasp& grasp, const Vec2& e_O) {
-  const double turn = std::numbers::pi / 180.0 * options.turn_deg_s;
+/// Twist of the pusher in H: the direction is given in O, rates of turn about the finger
+/// axis. With an acceleration the same motion begins from rest.
+SpatialTwist pusher_rate(const Options& options, const Grasp& grasp, const Vec2& e_O) {
+  constexpr double kRadPerDeg = std::numbers::pi / 180.0;
   const Vec2 v = 1e-3 * options.speed_mm_s * rotated(grasp.X_HO.theta, e_O);
-  PlanarTwist V_HP(v.x(), v.y(), turn);
+  SpatialTwist V_HP;
+  V_HP << v.x(), v.y(), 1e-3 * options.rise_mm_s, 0.0, 0.0,
+      kRadPerDeg * options.turn_deg_s;
+  if (!options.tilt_deg_s.empty()) {
+    V_HP[3] = kRadPerDeg * options.tilt_deg_s[0];
+    V_HP[4] = kRadPerDeg * options.tilt_deg_s[1];
+  }
   if (options.acceleration > 0.0) {
     V_HP *= options.acceleration / (1e-3 * options.speed_mm_s);
   }
   return V_HP;
 }
 
-void solve(const Options& options, const Model& model, InstantReport& report) {
-  if (options.solver == "closed") {
-    report.instant = solve_limit_surface(model.surface(), report.grasp.w_g, report.drive);
-    report.certificate_worst = limit_surface_residual(model.surface(), report.grasp.w_g,
-                                                      report.drive, report.instant);
-    return;
-  }
-  report.instant = options.solver == "ipopt"
-                       ? solve_reference(report.grasp, report.drive,
-                                         {.generators = options.generators})
-                       : solve_planar(report.grasp, report.drive);
-  report.certificate = certify(report.grasp, report.drive, report.instant);
-  report.certificate_worst = report.certificate.worst;
-}
-
-void differentiate(const Options& options, const Model& model, int contact,
-                   const Grasp& grasp, InstantReport& report) {
-  const DifferentiatedInstant differentiated(report.grasp, report.drive, report.instant);
-  report.mode_slack = differentiated.mode_slack();
-  for (int i = 0; i < static_cast<int>(InstantParameter::kCount); ++i) {
-    report.sensitivities.push_back(differentiated.along(
-        variation_of(model, model.contacts[contact], 1e-3 * options.push.place_mm,
-                     grasp.X_HO, report.drive.V_HP, static_cast<InstantParameter>(i))));
-  }
-}
-
-/// Refuses combinations that ask for what a solver cannot answer.
+/// Refuses combinations that ask for what nothing can answer.
 void check_options(const Options& options) {
-  const bool spatial = options.solver == "spatial";
-  if (options.acceleration > 0.0 &&
-      (options.solver == "closed" || spatial || options.compare)) {
+  if (!options.moves()) {
     throw BadInput(
-        "--acceleration: expected --solver exact or ipopt: the others are asked in the "
-        "quasi-static limit");
-  }
-  if (options.sensitivity &&
-      (options.solver != "exact" || options.compare || options.acceleration > 0.0)) {
-    throw BadInput("--sensitivity: expected --solver exact in the quasi-static limit");
-  }
-  if (options.speed_mm_s == 0.0 && options.turn_deg_s == 0.0 &&
-      options.rise_mm_s == 0.0) {
-    throw BadInput(
-        "--speed-mm-s 0: expected a pusher that moves: a speed, --turn-deg-s or "
-        "--rise-mm-s");
+        "--speed-mm-s 0: expected a pusher that moves: a speed, --turn-deg-s, "
+        "--rise-mm-s or --tilt-deg-s");
   }
   if (options.acceleration > 0.0 && options.speed_mm_s == 0.0) {
     throw BadInput("--speed-mm-s 0: expected more than 0 with --acceleration");
   }
-  if (!options.in_plane() && !spatial && !options.compare) {
-    throw BadInput(
-        "--height-mm, --rise-mm-s: expected --solver spatial or --compare: the others "
-        "know the pad plane only");
+  if (options.sensitivity && (options.compare || options.acceleration > 0.0)) {
+    throw BadInput("--sensitivity: expected one solver in the quasi-static limit");
   }
 }
 
@@ -144,9 +123,10 @@ std::string question_text(const Options& options, const Model& model, int contac
                           const Grasp& grasp) {
   std::string out = text("%s at place %.2f mm", contact_text(model, contact).c_str(),
                          options.push.place_mm);
-  if (options.height_mm != 0.0) {
-    out += text(", %.2f mm off the mid-plane", options.height_mm);
-  }
+  const PushContact& touched = model.contacts[contact];
+  const double height =
+      options.height_mm.value_or(to_mm(0.5 * (touched.z_low + touched.z_high)));
+  if (height != 0.0) out += text(", %.2f mm off the mid-plane", height);
   out += text(", direction %.2f deg from its normal, ", options.push.direction_deg);
   out += options.acceleration > 0.0
              ? text("acceleration %.4g m/s^2", options.acceleration)
@@ -154,27 +134,92 @@ std::string question_text(const Options& options, const Model& model, int contac
   if (options.rise_mm_s != 0.0) {
     out += text(" and %.4g mm/s along the closing direction", options.rise_mm_s);
   }
-  return out + text(", turning %.4g deg/s; object at ", options.turn_deg_s) +
-         pose_text(model, grasp);
+  out += text(", turning %.4g deg/s", options.turn_deg_s);
+  if (!options.tilt_deg_s.empty()) {
+    out += text(", tilting (%.4g, %.4g) deg/s", options.tilt_deg_s[0],
+                options.tilt_deg_s[1]);
+  }
+  return out + "; object at " + pose_text(model, grasp);
 }
 
-SpatialProblem spatial_question(const Options& options, const Model& model, int contact,
-                                const Grasp& grasp, const PlanarTwist& V_HP) {
-  const double most = to_mm(model.half_thickness);
-  if (std::abs(options.height_mm) > most) {
-    throw BadInput(text("--height-mm %g: expected -%g to %g, where the object is",
-                        options.height_mm, most, most));
+InstantQuestion asked(const Options& options, const Model& model, int contact,
+                      const Grasp& grasp) {
+  SpatialQuestionOptions how{.from_rest = options.acceleration > 0.0};
+  if (options.height_mm) {
+    const double most = to_mm(model.half_thickness);
+    if (std::abs(*options.height_mm) > most) {
+      throw BadInput(text("--height-mm %g: expected -%g to %g, where the object is",
+                          *options.height_mm, most, most));
+    }
+    how.height = 1e-3 * *options.height_mm;
   }
-  const SpatialProblem problem = spatial_problem_at(
-      model, model.contacts[contact], 1e-3 * options.push.place_mm, grasp.X_HO, V_HP,
-      {.height = 1e-3 * options.height_mm, .rate = 1e-3 * options.rise_mm_s});
-  if (problem.count == 0) {
-    throw BadInput(
-        text("--points %d: expected fewer: both pads and the pusher may have %d points "
-             "together, and the pads must lie on the object",
-             options.points, SpatialProblem::kMaxPoints));
+  const Vec2 e = chosen_direction(model, contact, options.push);
+  return question_at(model, model.contacts[contact], 1e-3 * options.push.place_mm,
+                     grasp.X_HO, pusher_rate(options, grasp, e), how);
+}
+
+InstantReport planar_report(const Options& options, const Model& model, int contact,
+                            const Grasp& grasp, const InstantQuestion& question,
+                            const PlanarInstant& instant) {
+  InstantReport report;
+  report.grasp = question.grasp;
+  report.drive = question.drive;
+  report.instant = instant;
+  if (instant.finger_count > 0) {
+    report.certificate = certify(report.grasp, report.drive, report.instant);
   }
-  return problem;
+  if (!options.sensitivity) return report;
+  const DifferentiatedInstant differentiated(report.grasp, report.drive, report.instant);
+  report.mode_slack = differentiated.mode_slack();
+  for (int i = 0; i < static_cast<int>(InstantParameter::kCount); ++i) {
+    report.sensitivities.push_back(differentiated.along(
+        variation_of(model, model.contacts[contact], 1e-3 * options.push.place_mm,
+                     grasp.X_HO, report.drive.V_HP, static_cast<InstantParameter>(i))));
+  }
+  return report;
+}
+
+/// One solver's answer, as that solver can tell it.
+int answer_one(const Options& options, const Model& model, int contact,
+               const Grasp& grasp, const std::string& question_words,
+               const InstantQuestion& question, const SolverOptions& how) {
+  const SolverChoice choice = chosen_solver(question);
+  const bool chose = how.solver == Solver::kChoose;
+  const Solver solver = chose ? choice.solver : how.solver;
+  if (const char* why = refusal(solver, question)) {
+    throw BadInput("--solver " + std::string(name(solver)) + ": " + why +
+                   (solver == Solver::kSpatial ? "" : ": expected auto or spatial"));
+  }
+  if (options.sensitivity && solver != Solver::kPlanar) {
+    throw BadInput("--sensitivity: expected an instant for --solver exact, this one is " +
+                   std::string("for ") + std::string(name(solver)));
+  }
+  const InstantAnswer answer = solve(question, how);
+  if (const auto* planar = std::get_if<PlanarInstant>(&answer.detail)) {
+    InstantReport report =
+        planar_report(options, model, contact, grasp, question, *planar);
+    report.question = question_words;
+    report.solver = name(solver);
+    report.why_this_solver = chose ? choice.why : "";
+    report.certificate_worst = answer.certificate;
+    return print(report, options.scene.json);
+  }
+  if (const auto* spatial = std::get_if<SpatialInstant>(&answer.detail)) {
+    SpatialReport report;
+    report.question = question_words;
+    report.why_this_solver = chose ? choice.why : "";
+    report.problem =
+        how.rigid_limit ? rigid_limit_of(question.spatial) : question.spatial;
+    report.instant = *spatial;
+    report.probed = how.probe_multiplicity;
+    report.certificate = certify(report.problem, report.instant);
+    return print(report, options.scene.json);
+  }
+  const std::vector<TimedAnswer> row = {timed_answer(question, how)};
+  const std::string out = options.scene.json ? to_json(row).dump(2) + '\n'
+                                             : question_words + '\n' + describe(row);
+  std::fputs(out.c_str(), stdout);
+  return usable(answer.status) ? kDone : kNegative;
 }
 
 int run(const Options& options) {
@@ -184,40 +229,20 @@ int run(const Options& options) {
   if (options.roll) return ask_roll(options, model, contact);
   check_options(options);
   const Grasp grasp = chosen_grasp(model, options.push);
-  const Vec2 e = chosen_direction(model, contact, options.push);
-  const PlanarTwist V_HP = pusher_rate(options, grasp, e);
-  const std::string question = question_text(options, model, contact, grasp);
-  if (options.solver == "spatial" && !options.compare) {
-    SpatialReport report;
-    report.question = question;
-    report.problem = spatial_question(options, model, contact, grasp, V_HP);
-    report.instant = solve_spatial(report.problem);
-    report.certificate = certify(report.problem, report.instant);
-    return print(report, options.scene.json);
+  const InstantQuestion question = asked(options, model, contact, grasp);
+  const std::string words = question_text(options, model, contact, grasp);
+  const SolverOptions how{.solver = solver_called(options.solver),
+                          .generators = options.generators,
+                          .probe_multiplicity = options.probe,
+                          .rigid_limit = options.rigid_limit};
+  if (!options.compare) {
+    return answer_one(options, model, contact, grasp, words, question, how);
   }
-  InstantReport report;
-  report.solver = options.solver;
-  report.question = question;
-  report.grasp = grasp_at(model, grasp.X_HO, model.contacts[contact].g_O);
-  if (options.acceleration > 0.0) add_inertia(model, grasp.X_HO, report.grasp);
-  report.drive =
-      drive_at(model.contacts[contact], 1e-3 * options.push.place_mm, grasp.X_HO, V_HP);
-  if (options.compare) {
-    const std::vector<SolverAnswer> answers = compare_solvers(
-        {.in_plane = options.in_plane(),
-         .surface = model.surface(),
-         .grasp = report.grasp,
-         .drive = report.drive,
-         .spatial = spatial_question(options, model, contact, grasp, V_HP),
-         .generators = options.generators});
-    const std::string out = options.scene.json ? to_json(answers).dump(2) + '\n'
-                                               : question + '\n' + describe(answers);
-    std::fputs(out.c_str(), stdout);
-    return kDone;
-  }
-  solve(options, model, report);
-  if (options.sensitivity) differentiate(options, model, contact, grasp, report);
-  return print(report, options.scene.json);
+  const std::vector<TimedAnswer> answers = compare_solvers(question, how);
+  const std::string out = options.scene.json ? to_json(answers).dump(2) + '\n'
+                                             : words + '\n' + describe(answers);
+  std::fputs(out.c_str(), stdout);
+  return kDone;
 }
 
 }  // namespace
@@ -242,12 +267,15 @@ Command add_query_instant(CLI::App& query) {
       ->check(CLI::Range(0.0, 1e6));
   command
       .add_option("--solver", options->solver,
-                  "exact, closed (limit surface), ipopt, or spatial")
-      ->check(CLI::IsMember({"exact", "closed", "ipopt", "spatial"}))
+                  "auto: the exact one that the question needs; exact and closed (limit "
+                  "surface): in the pad plane; ipopt: the paper's formulation there; "
+                  "spatial; pivoting and spatial-ipopt: polyhedral cones in space")
+      ->check(CLI::IsMember(
+          {"auto", "exact", "closed", "ipopt", "spatial", "pivoting", "spatial-ipopt"}))
       ->capture_default_str();
   command
       .add_option("--generators", options->generators,
-                  "friction generators g for ipopt and for pivoting")
+                  "friction generators g of polyhedral cones")
       ->check(CLI::IsMember({4, 8, 16, 32, 64}))
       ->capture_default_str();
   command.add_option("--points", options->points, "contact points per pad")
@@ -256,12 +284,21 @@ Command add_query_instant(CLI::App& query) {
   command
       .add_option("--height-mm", options->height_mm,
                   "of the pusher along the closing direction, from the mid-plane of the "
-                  "object; spatial solver")
+                  "object; default: as in the scene")
       ->check(CLI::Range(-1e4, 1e4));
   command
       .add_option("--rise-mm-s", options->rise_mm_s,
-                  "of the pusher along the closing direction; spatial solver")
+                  "of the pusher along the closing direction")
       ->check(CLI::Range(-1e6, 1e6));
+  command
+      .add_option("--tilt-deg-s", options->tilt_deg_s,
+                  "of the pusher about x,y of the hand, through the finger axis")
+      ->delimiter(',')
+      ->expected(2)
+      ->check(CLI::Range(-1e6, 1e6));
+  command.add_flag("--probe", options->probe, "look for a second motion");
+  command.add_flag("--rigid-limit", options->rigid_limit,
+                   "pads as stiff as the spatial solver can resolve");
   command.add_flag("--sensitivity", options->sensitivity,
                    "how the answer changes with frictions, grip force, mass, place and "
                    "direction");

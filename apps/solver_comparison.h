@@ -6,36 +6,24 @@
 
 #include <nlohmann/json.hpp>
 
-#include "mechanics/instant.h"
-#include "mechanics/limit_surface.h"
-#include "mechanics/spatial_problem.h"
+#include "mechanics/solvers.h"
 
 namespace prehensile::apps {
 
-struct SolverAnswer {
-  std::string solver;
-  std::string status;
-  double push_force = kNan;                        ///< [N]
-  PlanarTwist V_HO = PlanarTwist::Constant(kNan);  ///< in the pad plane
-  double residual = kNan;     ///< the solver's own, in units (F0, V0)
-  double certificate = kNan;  ///< of circular cones, by separate code; NaN: none applies
+struct TimedAnswer {
+  InstantAnswer answer;
+  std::string status;  ///< in words; why the solver was left out if it was
   double microseconds = kNan;
 };
 
-/// What is asked in the pad plane, and in space; a spatial problem without points leaves
-/// the spatial solvers out, `in_plane` false the planar ones.
-struct ComparedInstant {
-  bool in_plane = true;
-  LimitSurface surface;
-  PlanarGrasp grasp;
-  PlanarDrive drive;
-  SpatialProblem spatial;
-  int generators = 8;
-};
+/// By all solvers of this build, left out and refused ones included.
+std::vector<TimedAnswer> compare_solvers(const InstantQuestion& question,
+                                         const SolverOptions& options);
 
-std::vector<SolverAnswer> compare_solvers(const ComparedInstant& question);
+/// By one solver.
+TimedAnswer timed_answer(const InstantQuestion& question, const SolverOptions& options);
 
-std::string describe(const std::vector<SolverAnswer>& answers);
-nlohmann::ordered_json to_json(const std::vector<SolverAnswer>& answers);
+std::string describe(const std::vector<TimedAnswer>& answers);
+nlohmann::ordered_json to_json(const std::vector<TimedAnswer>& answers);
 
 }  // namespace prehensile::apps

@@ -55,6 +55,25 @@ std::string point_table(const SpatialReport& report) {
   return table.str();
 }
 
+/// What decides the answer: how many points of each body do what.
+std::string modes_in_words(const SpatialReport& report) {
+  std::string out;
+  for (int p = 0; p < report.problem.patch_count; ++p) {
+    const ContactPatch& patch = report.problem.patch[p];
+    int stick = 0;
+    int slip = 0;
+    for (int i = patch.first; i < patch.first + patch.count; ++i) {
+      const ContactMode mode = report.instant.point[i].mode;
+      if (mode == ContactMode::kStick) ++stick;
+      if (mode != ContactMode::kStick && mode != ContactMode::kOpen) ++slip;
+    }
+    out +=
+        text("%s%s: %d of %d points slip, %d stick, %d open", p == 0 ? "" : "; ",
+             name_of(patch.body), slip, patch.count, stick, patch.count - slip - stick);
+  }
+  return out + '\n';
+}
+
 std::string certificate_text(const SpatialCertificate& certificate) {
   std::string out = text(
       "certificate: worst %.1e (units of force, rate and length of the problem; accepted "
@@ -72,7 +91,12 @@ std::string certificate_text(const SpatialCertificate& certificate) {
 
 /// Of a spatial instant less is known than of a planar one: it is certified, but other
 /// motions are not searched for.
-const char* meaning_in_space(InstantStatus status) {
+const char* meaning_in_space(const SpatialReport& report) {
+  const InstantStatus status = report.instant.status;
+  if (status == InstantStatus::kMoves && report.probed) {
+    return "the grasp breaks and the object moves, while the pads alone hold gravity; "
+           "from other starts no other motion was found";
+  }
   if (status == InstantStatus::kMoves) {
     return "the grasp breaks and the object moves, while the pads alone hold gravity; "
            "other motions are not searched for";
@@ -108,7 +132,7 @@ nlohmann::ordered_json points_json(const SpatialReport& report) {
 std::string describe(const SpatialReport& report) {
   const SpatialInstant& now = report.instant;
   std::string out = report.question + '\n';
-  out += std::string(name(now.status)) + ": " + meaning_in_space(now.status) + '\n';
+  out += std::string(name(now.status)) + ": " + meaning_in_space(report) + '\n';
   if (usable(now.status)) {
     out += text(
         "push force %.6g N: (%.4f, %.4f, %.4f) N on the object, moment (%.4f, %.4f, "
@@ -130,9 +154,12 @@ std::string describe(const SpatialReport& report) {
   if (now.status == InstantStatus::kAmbiguous && now.other.allFinite()) {
     out += twist_text("other motion", now.other.head<6>());
   }
-  if (usable(now.status)) out += point_table(report);
+  if (usable(now.status)) out += modes_in_words(report) + point_table(report);
   out += text("solver spatial: %d Newton steps, residual %.1e\n", now.iterations,
               now.residual);
+  if (!report.why_this_solver.empty()) {
+    out += "  chosen because " + report.why_this_solver + '\n';
+  }
   return out + certificate_text(report.certificate);
 }
 
@@ -145,8 +172,9 @@ nlohmann::ordered_json to_json(const SpatialReport& report) {
   }
   return {{"question", report.question},
           {"solver", "spatial"},
+          {"why_this_solver", report.why_this_solver},
           {"status", std::string(name(now.status))},
-          {"meaning", meaning_in_space(now.status)},
+          {"meaning", meaning_in_space(report)},
           {"push_force", number(now.push_force)},
           {"push_wrench", numbers(now.w_push)},
           {"object_twist", numbers(now.V_HO)},

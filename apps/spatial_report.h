@@ -10,7 +10,9 @@
 namespace prehensile::apps {
 
 struct SpatialReport {
-  std::string question;  ///< one line for people
+  std::string question;         ///< one line for people
+  std::string why_this_solver;  ///< empty: the user chose it
+  bool probed = false;          ///< other motions were searched for
   SpatialProblem problem;
   SpatialInstant instant;
   SpatialCertificate certificate;

@@ -297,6 +297,22 @@ void FieldReader::one_or_two(const char* key, std::array<double, 2>& into,
   }
 }
 
+void FieldReader::place(const char* key, Vec2& into, double& z, const Bounds& bounds,
+                        const char*) {
+  const Value* value = take(key, kOptional, {});
+  if (!value) return;
+  if (value->kind != Value::Kind::kList ||
+      (value->items.size() != 2 && value->items.size() != 3)) {
+    faults_.add(value->place, child(key),
+                shown(*value) + ": expected a list of 2 or 3 numbers");
+    return;
+  }
+  std::array<double, 3> numbers{into.x(), into.y(), 0.0};
+  read_numbers(*value, child(key), bounds, {numbers.data(), value->items.size()});
+  into = {numbers[0], numbers[1]};
+  z = numbers[2];
+}
+
 void FieldReader::names(const char* key, std::vector<std::string>& into, Length length,
                         const char*) {
   const Value* value = take(key, kOptional, {});

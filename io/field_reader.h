@@ -59,6 +59,15 @@ class FieldReader {
     if (present) into = value;
   }
 
+  void place(const char* key, Vec2& into, double& z, const Bounds& bounds, const char*);
+  void place(const char* key, std::optional<Vec2>& into, double& z, const Bounds& bounds,
+             const char* doc) {
+    Vec2 value = Vec2::Zero();
+    const bool present = map_.find(key) != nullptr;
+    place(key, value, z, bounds, doc);
+    if (present) into = value;
+  }
+
   template <typename T, std::size_t N>
   void word(const char* key, T& into, const std::array<Word<T>, N>& words, Need need,
             const char*) {
@@ -81,6 +90,11 @@ class FieldReader {
     if (const Value* value = take(key, kOptional, {})) {
       read(*value, child(key), faults_, into.emplace(), visit);
     }
+  }
+
+  template <typename T, typename Visit>
+  void group_if_set(const char* key, T& into, const char* doc, const Visit& visit) {
+    group(key, into, kOptional, doc, visit);
   }
 
   template <typename T, typename Visit>

@@ -46,6 +46,10 @@ FieldSchema::Json FieldSchema::numbers_schema(std::size_t count, const Bounds& b
   return list_schema(number_schema(bounds), {count, count});
 }
 
+FieldSchema::Json FieldSchema::two_or_three_schema(const Bounds& bounds) {
+  return list_schema(number_schema(bounds), {2, 3});
+}
+
 FieldSchema::Json FieldSchema::list_schema(const Json& member, Length length) {
   return {{"type", "array"},
           {"items", member},

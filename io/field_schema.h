@@ -88,6 +88,17 @@ class FieldSchema {
     add(key, numbers_schema(2, bounds), kOptional, with_unit(doc, bounds));
   }
 
+  void place(const char* key, const Vec2& initial, double, const Bounds& bounds,
+             const char* doc) {
+    add(key,
+        with_default(two_or_three_schema(bounds), {initial.x(), initial.y()}, kOptional),
+        kOptional, with_unit(doc, bounds));
+  }
+  void place(const char* key, const std::optional<Vec2>&, double, const Bounds& bounds,
+             const char* doc) {
+    add(key, two_or_three_schema(bounds), kOptional, with_unit(doc, bounds));
+  }
+
   template <typename T, std::size_t N>
   void word(const char* key, const T& initial, const std::array<Word<T>, N>& words,
             Need need, const char* doc) {
@@ -109,6 +120,11 @@ class FieldSchema {
              const Visit& visit) {
     T example{};
     add(key, describe(example, visit), kOptional, doc);
+  }
+
+  template <typename T, typename Visit>
+  void group_if_set(const char* key, T& example, const char* doc, const Visit& visit) {
+    group(key, example, kOptional, doc, visit);
   }
 
   template <typename T, typename Visit>
@@ -138,6 +154,7 @@ class FieldSchema {
 
   static Json number_schema(const Bounds& bounds);
   static Json numbers_schema(std::size_t count, const Bounds& bounds);
+  static Json two_or_three_schema(const Bounds& bounds);
   static Json list_schema(const Json& member, Length length);
   static Json with_default(Json schema, const Json& initial, Need need);
   static std::string with_unit(const std::string& doc, const Bounds& bounds);

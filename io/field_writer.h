@@ -61,6 +61,14 @@ class FieldWriter {
     if (from) map_.add(key, numbers(*from));
   }
 
+  void place(const char* key, const Vec2& from, double z, const Bounds&, const char*) {
+    map_.add(key, z == 0.0 ? numbers(from) : numbers(Vec3(from.x(), from.y(), z)));
+  }
+  void place(const char* key, const std::optional<Vec2>& from, double z,
+             const Bounds& bounds, const char* doc) {
+    if (from) place(key, *from, z, bounds, doc);
+  }
+
   template <typename T, std::size_t N>
   void word(const char* key, const T& from, const std::array<Word<T>, N>& words, Need,
             const char*) {
@@ -76,6 +84,11 @@ class FieldWriter {
   template <typename T, typename Visit>
   void group(const char* key, std::optional<T>& from, const char*, const Visit& visit) {
     if (from) map_.add(key, write(*from, visit));
+  }
+
+  template <typename T, typename Visit>
+  void group_if_set(const char* key, T& from, const char* doc, const Visit& visit) {
+    if (!(from == T{})) group(key, from, kOptional, doc, visit);
   }
 
   template <typename T, typename Visit>

@@ -13,11 +13,14 @@
 ///   `key`_deg;
 ///                                        also optional<double>
 ///   vector(key, fixed size)              also optional<Vec2>
+///   place(key, Vec2, double)             two numbers, or three; the last is 0 if absent;
+///                                        also optional<Vec2>
 ///   one_or_two(key, two numbers)         one number stands for both
 ///   word(key, value, words)              one of a closed set
 ///   names(key, strings)                  a list of words
 ///   points(key, vertices)                a list of pairs of numbers
 ///   group(key, value, visit)             a map; also optional<T>: absent if unset
+///   group_if_set(key, value, visit)      a map, written only if not as the struct starts
 ///   list(key, vector, visit)             a list of maps
 ///   choice(variant, alternatives...)     exactly one of several keys
 #pragma once

@@ -25,6 +25,12 @@ inline constexpr std::array<Word<JawMode>, 5> kJawModeWords = {
      {JawMode::kFixedJaw2, "fixed_jaw_2"},
      {JawMode::kIndependent, "independent"},
      {JawMode::kLocked, "locked"}}};
+inline constexpr std::array<Word<PressureLaw>, 3> kPressureLawWords = {
+    {{PressureLaw::kFoundation, "foundation"},
+     {PressureLaw::kGiven, "given"},
+     {PressureLaw::kFree, "free"}}};
+inline constexpr std::array<Word<PressureProfile>, 2> kPressureProfileWords = {
+    {{PressureProfile::kUniform, "uniform"}, {PressureProfile::kHertz, "hertz"}}};
 inline constexpr std::array<Word<Overhang>, 2> kOverhangWords = {
     {{Overhang::kClip, "clip"}, {Overhang::kIgnore, "ignore"}}};
 inline constexpr std::array<Word<GoalTest>, 2> kGoalTestWords = {
@@ -59,8 +65,9 @@ void visit_object(Fields& fields, Object& object) {
                      "Along z, between the jaws.");
           }));
   fields.number("mass", object.mass, {1e-9, 1e4, "kg"}, kRequired, "Mass.");
-  fields.vector("centre_of_mass", object.p_OCom, kPlaces,
-                "In O. Absent: centroid of the shape.");
+  fields.place("centre_of_mass", object.p_OCom, object.z_OCom, kPlaces,
+               "In O; a third number is its height above the mid-plane. Absent: centroid "
+               "of the shape.");
   fields.number("inertia", object.inertia, {0.0, 1e6, "kg m^2"},
                 "About z through the centre of mass. Absent: of the homogeneous shape.");
 }
@@ -85,7 +92,28 @@ void visit_pad(Fields& fields, Pad& pad) {
             f.number("length", line.length, kLengths, kRequired, "Length.");
             f.angle("angle", line.angle, kAngles, "Of the line in H, from its x axis.");
           }),
-      alternative<PointPad>("point", "Point contact.", kNoFields));
+      alternative<PointPad>("point", "Point contact.", [](auto& f, PointPad& point) {
+        f.number("spin_radius", point.spin_radius, kLengths,
+                 "Absent: a hard point, without friction moment. Else a soft one: "
+                 "friction moment over this radius and friction force are "
+                 "bounded together.");
+      }));
+}
+
+template <typename Fields>
+void visit_pressure(Fields& fields, PadPressure& pressure) {
+  fields.word(
+      "law", pressure.law, kPressureLawWords, kOptional,
+      "How the load of a pad shifts under a push. foundation: elastic, preloaded; "
+      "given: not at all; free: as rigid contact allows, not unique.");
+  fields.number("compliance", pressure.compliance, {1e-8, 1e3, ""}, kOptional,
+                "Of the foundation: deflection of a pad under the grip force over the "
+                "pusher's travel.");
+  fields.word("profile", pressure.profile, kPressureProfileWords, kOptional,
+              "Load at rest. uniform; hertz: falls off to nothing at the rim.");
+  fields.number("edge_load", pressure.edge_load, {-1.0, 3.0, ""}, kOptional,
+                "p of the factor 1 + p (r^2 / mean r^2 - 1) on the profile: more (p > 0) "
+                "or less load at the rim.");
 }
 
 template <typename Fields>
@@ -102,6 +130,9 @@ void visit_gripper(Fields& fields, Gripper& gripper) {
               "coupled: symmetric jaws; fixed_jaw_1 or fixed_jaw_2: that jaw stands "
               "still, the other one presses; independent: each presses by itself; "
               "locked: both stand still.");
+  fields.group_if_set(
+      "pressure", gripper.pressure, "How the load of a pad spreads over it.",
+      [](auto& f, PadPressure& pressure) { visit_pressure(f, pressure); });
   fields.group("tool", gripper.tool, kOptional,
                "Fixed transform from H to the tool frame T of the robot.",
                [](auto& f, ToolTransform& tool) {
@@ -116,15 +147,30 @@ void visit_pusher(Fields& fields, Pusher& pusher) {
   fields.text("name", pusher.name, kRequired, "Name, used by plans and reports.");
   fields.choice(
       pusher.feature, alternative<PointFeature>("point", "A point.", kNoFields),
-      alternative<LineFeature>("line", "A straight edge, or the section of a wall.",
+      alternative<LineFeature>("line", "A straight edge in the pad plane.",
                                [](auto& f, LineFeature& line) {
                                  f.number("length", line.length, kLengths,
                                           "Absent: longer than any face.");
-                               }));
+                               }),
+      alternative<UprightFeature>("upright",
+                                  "A straight edge along the closing direction.",
+                                  [](auto& f, UprightFeature& upright) {
+                                    f.number("length", upright.length, kLengths,
+                                             "Absent: longer than the object is thick.");
+                                  }),
+      alternative<PlaneFeature>(
+          "plane", "A flat face.", [](auto& f, PlaneFeature& plane) {
+            f.number("length", plane.length, kLengths,
+                     "In the pad plane. Absent: longer than any face.");
+            f.number("width", plane.width, kLengths,
+                     "Along the closing direction. Absent: wider than the object is "
+                     "thick.");
+          }));
   fields.number("friction", pusher.friction, kFrictions, kRequired,
                 "Between pusher and object.");
-  fields.vector("position", pusher.p_WP, kPlaces, kOptional,
-                "Centre of the feature in the world W.");
+  fields.place("position", pusher.p_WP, pusher.z_WP, kPlaces,
+               "Centre of the feature in the world W; a third number is its height above "
+               "the mid-plane of the object.");
   fields.angle("normal", pusher.normal_angle, kAngles,
                "Direction in W of the normal, into the object.");
   fields.names("faces", pusher.faces, Length{0, 200},
@@ -176,8 +222,8 @@ void visit_scene(Fields& fields, Scene& scene) {
               "What it is pushed against: features that stand still in the world W, "
               "which is aligned with O at the start.",
               [](auto& f, Pusher& pusher) { visit_pusher(f, pusher); });
-  fields.vector("gravity", scene.g_W, {-1e3, 1e3, "m/s^2"}, kOptional,
-                "In W, in the pad plane.");
+  fields.place("gravity", scene.g_W, scene.g_Wz, {-1e3, 1e3, "m/s^2"},
+               "In W: in the pad plane, and along the closing direction.");
   fields.word("overhang", scene.overhang, kOverhangWords, kOptional,
               "clip: only the part of a pad on the face presses; ignore: the whole pad, "
               "as long as its centre is on the face.");

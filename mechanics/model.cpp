@@ -38,11 +38,13 @@ PushContact make_contact(const Scene& scene, int pusher_index, const Face& face,
   contact.a = face.a;
   contact.b = face.b;
   contact.mu = pusher.friction;
-  const auto* line = std::get_if<LineFeature>(&pusher.feature);
-  contact.is_point = line == nullptr;
-  contact.half_length = !line          ? 0.0
-                        : line->length ? 0.5 * *line->length
-                                       : std::numeric_limits<double>::infinity();
+  const std::optional<double> length = length_in_plane(pusher.feature);
+  contact.is_point = !length;
+  contact.half_length = 0.5 * length.value_or(0.0);
+  const double half_width = 0.5 * width_across_plane(pusher.feature);
+  const double half = half_thickness(scene.object.shape);
+  contact.z_low = std::clamp(pusher.z_WP - half_width, -half, half);
+  contact.z_high = std::clamp(pusher.z_WP + half_width, -half, half);
   contact.theta_WO = wrapped(pusher.normal_angle - std::atan2(face.n.y(), face.n.x()));
   contact.g_O = rotated(-contact.theta_WO, scene.g_W);
   return contact;
@@ -58,13 +60,81 @@ CrossSectionModel make_cross_section(const Scene& scene) {
   return section;
 }
 
+/// Balance along z with the object at rest in the jaws: w is gravity along the closing
+/// direction, away from jaw 1.
+std::array<double, 2> jaw_forces(const Gripper& gripper, double w) {
+  const double N = gripper.grip_force;
+  std::array<double, 2> force{N, N};
+  switch (gripper.jaw_mode) {
+    case JawMode::kCoupled:
+    case JawMode::kLocked:
+      force = {N - 0.5 * w, N + 0.5 * w};
+      break;
+    case JawMode::kFixedJaw1:
+      force = {N - w, N};
+      break;
+    case JawMode::kFixedJaw2:
+      force = {N, N + w};
+      break;
+    case JawMode::kIndependent:
+      if (w != 0.0) force = {0.0, 0.0};
+      break;
+  }
+  if (force[0] < 0.0 || force[1] < 0.0) force = {0.0, 0.0};
+  return force;
+}
+
+std::vector<std::string> load_shifts_of(const Scene& scene) {
+  std::vector<std::string> found;
+  if (scene.g_Wz != 0.0) found.emplace_back("gravity along the closing direction");
+  if (scene.object.z_OCom != 0.0) {
+    found.emplace_back("the centre of mass off the mid-plane");
+  }
+  if (scene.gripper.friction[0] != scene.gripper.friction[1]) {
+    found.emplace_back("unequal friction of the fingers");
+  }
+  if (scene.gripper.pressure.law == PressureLaw::kFree) {
+    found.emplace_back("free pressure");
+  }
+  return found;
+}
+
+/// Whether the pad plane is enough, and for which contacts it is not.
+void explain_level(const Scene& scene, Model& model) {
+  std::string why;
+  for (const std::string& reason : model.load_shifts) {
+    why += (why.empty() ? "" : ", ") + reason;
+  }
+  for (const PushContact& contact : model.contacts) {
+    if (contact.is_symmetric()) continue;
+    why += (why.empty() ? "pusher " : ", pusher ");
+    why += scene.pushers[contact.pusher].name;
+    why += " off the mid-plane";
+  }
+  if (why.empty()) {
+    model.decisions.push_back(
+        {"motion along the closing direction and out-of-plane turns",
+         "pushers and loads are symmetric about the mid-plane, where the pads leave x, y "
+         "and theta free"});
+  } else {
+    model.decisions.push_back(
+        {"known loads of the pads (instants are spatial, plans are made in the pad "
+         "plane)",
+         std::move(why)});
+  }
+  if (model.jaw_force[0] + model.jaw_force[1] == 0.0 && scene.gripper.grip_force > 0.0) {
+    model.decisions.push_back(
+        {"friction of the pads",
+         "the jaws cannot carry gravity along the closing direction"});
+  }
+}
+
 void explain(const Scene& scene, Model& model) {
   const auto say = [&model](std::string what, std::string why) {
     model.decisions.push_back({std::move(what), std::move(why)});
   };
-  say("motion along the closing direction and out-of-plane turns",
-      "every pusher moves in the pad plane, where the pads leave x, y and theta free");
-  if (scene.g_W.isZero()) say("gravity wrench", "gravity is zero");
+  explain_level(scene, model);
+  if (scene.g_W.isZero() && scene.g_Wz == 0.0) say("gravity wrench", "gravity is zero");
   if (!model.cross_section) say("roll angle and cross-section", "the object cannot roll");
   if (model.contacts.empty()) {
     say("planar pushes", scene.pushers.empty() ? "the scene has no pusher"
@@ -75,6 +145,12 @@ void explain(const Scene& scene, Model& model) {
   }
   if (scene.gripper.friction[0] == scene.gripper.friction[1]) {
     say("separate fingers", "equal friction: points that coincide are merged");
+  }
+  const auto* point = std::get_if<PointPad>(&scene.gripper.pad);
+  if (point && point->spin_radius) {
+    say("the soft point's own law in pushes and plans",
+        "in the pad plane it is stood for by the round patch with the same largest "
+        "friction moment; instants know it exactly");
   }
   if (!scene.goal) say("goal", "the scene states none; it serves queries only");
   for (const PushContact& contact : model.contacts) {
@@ -116,9 +192,12 @@ Model prepare(const Scene& scene, const PrepareOptions& options) {
   }
   model.p_OCom = centre_of_mass(scene.object);
   model.mass = scene.object.mass;
-  model.inertia = moment_of_inertia(scene.object);
-  model.F =
-      (scene.gripper.friction[0] + scene.gripper.friction[1]) * scene.gripper.grip_force;
+  model.z_OCom = scene.object.z_OCom;
+  model.inertia_O = inertia_of(scene.object);
+  model.jaw_force = jaw_forces(scene.gripper, model.mass * scene.g_Wz);
+  model.F = scene.gripper.friction[0] * model.jaw_force[0] +
+            scene.gripper.friction[1] * model.jaw_force[1];
+  model.load_shifts = load_shifts_of(scene);
   model.c = model.region.torque_radius();
   model.L = longer_side(model.outline);
   model.half_thickness = half_thickness(scene.object.shape);
@@ -148,7 +227,7 @@ void add_inertia(const Model& model, const PlanarPose& X_HO,
   const double m = model.mass;
   grasp.inertia << m, 0.0, -m * p_HCom.y(),  //
       0.0, m, m * p_HCom.x(),                //
-      -m * p_HCom.y(), m * p_HCom.x(), model.inertia + m * p_HCom.squaredNorm();
+      -m * p_HCom.y(), m * p_HCom.x(), model.inertia_O(2, 2) + m * p_HCom.squaredNorm();
 }
 
 PlanarDrive drive_at(const PushContact& contact, double place, const PlanarPose& X_HO,

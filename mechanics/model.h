@@ -4,6 +4,7 @@
 /// A Model never changes afterwards and may be shared between threads.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -28,9 +29,14 @@ struct PushContact {
   double mu = 0.0;
   bool is_point = false;
   double half_length =
-      0.0;  ///< [m] of the pusher; infinity: longer than the face; 0: point
+      0.0;              ///< [m] of the pusher; infinity: longer than the face; 0: point
+  double z_low = 0.0;   ///< [m] extent of the contact along z of O; both 0 where the
+  double z_high = 0.0;  ///< pusher touches in the mid-plane only
   Vec2 g_O = Vec2::Zero();  ///< [m/s^2] gravity in O during contact
   double theta_WO = 0.0;    ///< [rad] attitude of the object in W during contact
+
+  /// The pusher pushes as much above the mid-plane as below.
+  bool is_symmetric() const { return z_low == -z_high; }
 
   /// Ends of the part of the face that carries load when the centre of the pusher stands
   /// at `place` [m along t from the centre of the face]. One point for a point pusher (a
@@ -62,10 +68,15 @@ struct Model {
 
   Vec2 p_OCom = Vec2::Zero();  ///< [m]
   double mass = 0.0;           ///< [kg]
-  double inertia = 0.0;        ///< [kg m^2] about z through the centre of mass
-  double F = 0.0;              ///< [N] (mu_1 + mu_2) x grip force
-  double c = 0.0;              ///< [m] torque radius of the whole pad region
-  double L = 0.0;              ///< [m] longer side of the object: unit of travel in costs
+  double z_OCom = 0.0;         ///< [m] of the centre of mass above the mid-plane
+  Eigen::Matrix3d inertia_O = Eigen::Matrix3d::Zero();  ///< [kg m^2] about the centre of
+                                                        ///< mass, in O
+  /// [N] of each jaw on the object at rest: grip force, and gravity along the closing
+  /// direction; 0 where the jaws cannot carry that.
+  std::array<double, 2> jaw_force{0.0, 0.0};
+  double F = 0.0;  ///< [N] mu_1 jaw_force_1 + mu_2 jaw_force_2
+  double c = 0.0;  ///< [m] torque radius of the whole pad region
+  double L = 0.0;  ///< [m] longer side of the object: unit of travel in costs
   double half_thickness = 0.0;  ///< [m] the pads touch the object at z = -/+ this
   LimitSurface surface() const { return {F, c}; }
 
@@ -73,6 +84,15 @@ struct Model {
   std::optional<CrossSectionModel> cross_section;
 
   std::vector<Decision> decisions;
+
+  /// Why the load of a pad shifts within it under any push, so that the pad plane alone
+  /// cannot say exactly how the object moves; empty if only pushers might do that.
+  std::vector<std::string> load_shifts;
+
+  /// A push by this contact needs the spatial mechanics.
+  bool needs_space(const PushContact& contact) const {
+    return !load_shifts.empty() || !contact.is_symmetric();
+  }
 
   /// Dimensions of the planner's state: 3 (x, y, theta), 4 with roll.
   int state_dimensions() const { return cross_section ? 4 : 3; }

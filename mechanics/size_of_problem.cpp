@@ -1,5 +1,7 @@
 #include "mechanics/size_of_problem.h"
 
+#include <algorithm>
+
 #include "mechanics/spatial_problem.h"
 
 namespace prehensile {
@@ -25,7 +27,11 @@ ProblemSize size_of_problem(const Model& model, int contact, int generators_per_
   SpatialProblem spatial;
   spatial.jaw_mode = model.scene.gripper.jaw_mode;
   size.spatial_unknowns = kSpatialTwist + jaw_freedoms(spatial).count;
-  size.spatial_points = 2 * size.finger_points + size.pusher_points;
+  const bool one_point = std::holds_alternative<PointPad>(model.scene.gripper.pad);
+  const int points_per_pad =
+      one_point ? std::min(1, size.finger_points) : size.finger_points;
+  size.spatial_points =
+      2 * points_per_pad + size.pusher_points * (c.z_high > c.z_low ? 2 : 1);
 
   // One lambda_n per pusher point (finger loads are known), one beta per generator, one
   // xi per rubbing point; rows: balance, gaps, eq. (4) per generator, eq. (3) per rubbing

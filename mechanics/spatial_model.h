@@ -1,29 +1,36 @@
 /// The spatial question that a compiled scene asks at a pose: the pads as patches on both
-/// faces of the object, and a pusher that may touch off the mid-plane and move out of the
-/// pad plane.
+/// faces of the object, and a pusher that may touch off the mid-plane and move in any
+/// way.
 #pragma once
+
+#include <optional>
 
 #include "mechanics/model.h"
 #include "mechanics/spatial_problem.h"
 
 namespace prehensile {
 
-/// What the pad plane cannot say about a push.
-struct OutOfPlane {
-  double height = 0.0;  ///< [m] of the pusher along z of H, from the mid-plane
-  double rate = 0.0;    ///< [m/s] of the pusher along z of H
-  /// Compliance of the pads' foundations in units V0 / F0, > 0: elastic deflection over
-  /// travel of the pusher. Small is stiff; 1e-3 is within a per mille of rigid pads.
-  double compliance = 1e-3;
+/// A twist in the pad plane as a spatial one.
+SpatialTwist in_space(const PlanarTwist& V);
+
+/// What the pad plane sees of a twist; exact where the rest is zero.
+PlanarTwist in_pad_plane(const SpatialTwist& V);
+bool lies_in_pad_plane(const SpatialTwist& V);
+
+struct SpatialQuestionOptions {
+  bool from_rest = false;  ///< the pusher's rates are accelerations from rest, and the
+                           ///< object has its inertia; else quasi-static
+  std::optional<double> height;  ///< [m] of the pusher above the mid-plane instead of the
+                                 ///< scene's; a feature with width is moved as a whole
 };
 
-/// The quasi-static question for this contact at a pose: `place` as in
-/// PushContact::segment, `V_HP` the pusher's twist in the pad plane. The centre of mass
-/// lies in the mid-plane. No points (count 0) where the pads have lost the face, or where
-/// they and the pusher have more than SpatialProblem::kMaxPoints. No heap.
+/// The question for this contact at a pose: `place` as in PushContact::segment, `V_HP`
+/// the pusher's twist (or acceleration). No points (count 0) where the pads have lost the
+/// face, where the jaws cannot carry gravity along the closing direction, or where pads
+/// and pusher have more points than SpatialProblem::kMaxPoints. No heap.
 SpatialProblem spatial_problem_at(const Model& model, const PushContact& contact,
                                   double place, const PlanarPose& X_HO,
-                                  const PlanarTwist& V_HP,
-                                  const OutOfPlane& out_of_plane = {}) noexcept;
+                                  const SpatialTwist& V_HP,
+                                  const SpatialQuestionOptions& options = {}) noexcept;
 
 }  // namespace prehensile

@@ -24,15 +24,11 @@ using SpatialWrench = Eigen::Matrix<double, 6, 1>;
 
 enum class ContactBody { kJaw1, kJaw2, kPusher };
 
-/// How the normal load of a patch spreads over its points.
-enum class PressureLaw {
-  kFoundation,  ///< preloaded elastic foundation: c_n + R (l_n - l_0) takes the place of
-                ///< c_n in the law of unilateral contact; the answer is unique
-  kGiven,       ///< l_n = l_0 whatever happens (uniform, Hertz)
-  kFree,        ///< rigid, R = 0: as in the paper; forces, and often motions, not unique
-};
-
 /// Points of one flat contact: they share body, frame, friction and pressure law.
+///
+///   foundation  c_n + R (l_n - l_0) takes the place of c_n in unilateral contact
+///   given       l_n = l_0 whatever happens
+///   free        rigid, R = 0: as in the paper
 struct ContactPatch {
   ContactBody body = ContactBody::kPusher;
   Vec3 n = Vec3::UnitX();  ///< unit normal, into the object

@@ -52,15 +52,17 @@ Chord chord_of_rectangle(const Vec2& size, const Vec2& p, const Vec2& d) {
 }  // namespace
 
 ContactRegion::ContactRegion(const Scene& scene, int points)
-    : pad_(scene.gripper.pad),
-      whole_(pad_points(scene.gripper.pad, points)),
+    : pad_(in_plane_equivalent(scene.gripper.pad)),
+      density_(std::make_shared<const PadDensity>(pad_, scene.gripper.pressure)),
+      whole_(pad_points(pad_, scene.gripper.pressure, points)),
       outline_(outline_of(scene.object.shape)),
       points_(points) {
+  const bool is_point = std::holds_alternative<PointPad>(scene.gripper.pad);
   round_side_ = can_roll(scene.object);
   clips_ = scene.overhang == Overhang::kClip;
   fixed_in_hand_ = !round_side_ && !clips_;
   isotropic_ = !round_side_ && std::holds_alternative<DiscPad>(pad_);
-  pad_reach_ = pad_reach(pad_);
+  pad_reach_ = pad_reach(scene.gripper.pad);
   if (round_side_) {
     const auto& cylinder = std::get<CylinderShape>(scene.object.shape);
     const Vec2 half = cylinder.axis == Axis::kX ? Vec2(0.5 * cylinder.length, 0.0)
@@ -72,9 +74,9 @@ ContactRegion::ContactRegion(const Scene& scene, int points)
     return;
   }
   torque_radius_ = mean_distance_to_axis(whole_);
-  if (clips_ && !std::holds_alternative<PointPad>(pad_)) {
+  if (clips_ && !is_point) {
     pieces_ = triangulate(outline_);
-    cells_ = pad_cells(pad_, kCellsPerSide);
+    cells_ = pad_cells(pad_, scene.gripper.pressure, kCellsPerSide);
   }
 }
 
@@ -110,7 +112,7 @@ ContactPoints ContactRegion::clipped_by_face(const PlanarPose& X_HO) const noexc
   double total = 0.0;
   double pressed = 0.0;
   for (const PadCell& cell : cells_) {
-    total += cell.measure;
+    total += cell.measure * cell.pressure;
     const double depth = depth_inside(outline_, transform(X_OH, cell.centroid));
     PressedCell part;
     if (depth >= cell.reach) {
@@ -121,9 +123,9 @@ ContactPoints ContactRegion::clipped_by_face(const PlanarPose& X_HO) const noexc
     if (part.measure <= 0.0) continue;
     points.x[points.count] = part.centroid.x();
     points.y[points.count] = part.centroid.y();
-    points.weight[points.count] = part.measure;
+    points.weight[points.count] = part.measure * cell.pressure;
     ++points.count;
-    pressed += part.measure;
+    pressed += part.measure * cell.pressure;
   }
   for (int j = 0; j < points.count; ++j) points.weight[j] /= pressed;
   points.coverage = pressed / total;
@@ -149,12 +151,15 @@ ContactPoints ContactRegion::along_generator(const PlanarPose& X_HO) const noexc
   if (!(chord.high > chord.low)) return points;
   points.count = points_;
   points.coverage = (chord.high - chord.low) / full;
+  double sum = 0.0;
   for (int j = 0; j < points_; ++j) {
     const double s = chord.low + (chord.high - chord.low) * (j + 0.5) / points_;
     points.x[j] = a.x() + s * d.x();
     points.y[j] = a.y() + s * d.y();
-    points.weight[j] = 1.0 / points_;
+    points.weight[j] = (*density_)({points.x[j], points.y[j]});
+    sum += points.weight[j];
   }
+  for (int j = 0; j < points_; ++j) points.weight[j] /= sum;
   return points;
 }
 

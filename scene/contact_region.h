@@ -4,10 +4,11 @@
 ///
 /// Flat pad on a flat face: the pad, clipped by the face unless the scene says `ignore`.
 /// Flat pad on the curved side of a cylinder: the part of the generator line under the
-/// pad. The pressure is uniform over the region.
+/// pad. The pressure follows the profile of the scene, uniform unless it says otherwise.
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "scene/scene.h"
@@ -25,6 +26,7 @@ struct ContactPoints {
   double coverage = 0.0;  ///< share of the full contact region that presses, 0..1
 };
 
+class PadDensity;
 struct PadCell;
 struct Triangle;
 
@@ -62,6 +64,7 @@ class ContactRegion {
   ContactPoints along_generator(const PlanarPose& X_HO) const noexcept;
 
   Pad pad_;
+  std::shared_ptr<const PadDensity> density_;  // never changes
   ContactPoints whole_;
   std::vector<Vec2> outline_;     // in O
   std::vector<Triangle> pieces_;  // of the outline, in O; empty unless the face clips

@@ -144,17 +144,19 @@ int face_towards(const std::vector<Face>& faces, const Vec2& n) {
 
 OutlineProperties properties_of(const std::vector<Vec2>& outline) {
   OutlineProperties p;
-  double polar_about_origin = 0.0;
+  Eigen::Matrix2d about_origin = Eigen::Matrix2d::Zero();
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const Vec2& a = outline[i];
     const Vec2& b = outline[(i + 1) % outline.size()];
     const double w = cross(a, b);
     p.area += 0.5 * w;
     p.centroid += w / 6.0 * (a + b);
-    polar_about_origin += w / 12.0 * (a.squaredNorm() + a.dot(b) + b.squaredNorm());
+    about_origin +=
+        w / 24.0 *
+        (a * a.transpose() + b * b.transpose() + (a + b) * (a + b).transpose());
   }
   p.centroid /= p.area;
-  p.polar = polar_about_origin - p.area * p.centroid.squaredNorm();
+  p.second = about_origin - p.area * p.centroid * p.centroid.transpose();
   return p;
 }
 
@@ -212,18 +214,41 @@ Vec2 centre_of_mass(const Object& object) {
   return properties_of(outline_of(object.shape)).centroid;
 }
 
-double moment_of_inertia(const Object& object) {
-  if (object.inertia) return *object.inertia;
-  const OutlineProperties outline = properties_of(outline_of(object.shape));
-  const Vec2 shift = centre_of_mass(object) - outline.centroid;
-  double gyration_squared = outline.polar / outline.area;
-  const auto* cylinder = std::get_if<CylinderShape>(&object.shape);
-  if (cylinder) {
-    const double r2 = cylinder->radius * cylinder->radius;
-    const double l2 = cylinder->length * cylinder->length;
-    gyration_squared = cylinder->axis == Axis::kZ ? 0.5 * r2 : 0.25 * r2 + l2 / 12.0;
-  }
-  return object.mass * (gyration_squared + shift.squaredNorm());
+namespace {
+
+/// Of a body whose coordinates have the second moments `spread` about its centroid, per
+/// unit of mass.
+Eigen::Matrix3d gyration(const Eigen::Matrix3d& spread) {
+  return spread.trace() * Eigen::Matrix3d::Identity() - spread;
 }
+
+/// Second moments of a homogeneous body about its centroid, per unit of mass [m^2].
+Eigen::Matrix3d spread_of(const Shape& shape, const OutlineProperties& outline) {
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  if (const auto* cylinder = std::get_if<CylinderShape>(&shape)) {
+    spread.diagonal().setConstant(0.25 * cylinder->radius * cylinder->radius);
+    spread.diagonal()[static_cast<int>(cylinder->axis)] =
+        cylinder->length * cylinder->length / 12.0;
+    return spread;
+  }
+  const double half = half_thickness(shape);
+  spread.topLeftCorner<2, 2>() = outline.second / outline.area;
+  spread(2, 2) = half * half / 3.0;
+  return spread;
+}
+
+}  // namespace
+
+Eigen::Matrix3d inertia_of(const Object& object) {
+  const OutlineProperties outline = properties_of(outline_of(object.shape));
+  const Vec2 in_plane = centre_of_mass(object) - outline.centroid;
+  const Vec3 shift(in_plane.x(), in_plane.y(), object.z_OCom);
+  Eigen::Matrix3d inertia = object.mass * gyration(spread_of(object.shape, outline) +
+                                                   shift * shift.transpose());
+  if (object.inertia) inertia(2, 2) = *object.inertia;
+  return inertia;
+}
+
+double moment_of_inertia(const Object& object) { return inertia_of(object)(2, 2); }
 
 }  // namespace prehensile

@@ -25,9 +25,10 @@ struct Face {
 
 /// Mass properties of the homogeneous outline.
 struct OutlineProperties {
-  double area = 0.0;             ///< [m^2]
-  Vec2 centroid = Vec2::Zero();  ///< [m] in O
-  double polar = 0.0;            ///< [m^4] second moment about the centroid
+  double area = 0.0;                                 ///< [m^2]
+  Vec2 centroid = Vec2::Zero();                      ///< [m] in O
+  Eigen::Matrix2d second = Eigen::Matrix2d::Zero();  ///< [m^4] integral of r r^T about
+                                                     ///< the centroid
 };
 
 /// Counter-clockwise outline in O [m]. A cylinder held at its flat ends gives the regular
@@ -66,8 +67,11 @@ double half_thickness(const Shape& shape);
 /// Centre of mass in O: as given, or of the homogeneous shape [m].
 Vec2 centre_of_mass(const Object& object);
 
-/// Moment of inertia about z through the centre of mass: as given, or homogeneous
-/// [kg m^2].
+/// Inertia about the centre of mass, in O [kg m^2]: of the homogeneous shape, but its
+/// moment about z as given.
+Eigen::Matrix3d inertia_of(const Object& object);
+
+/// Moment of inertia about z through the centre of mass [kg m^2].
 double moment_of_inertia(const Object& object);
 
 }  // namespace prehensile

@@ -209,17 +209,73 @@ void clip(PadCell& polygon, const Vec2& a, const Vec2& b) {
 
 }  // namespace
 
-ContactPoints pad_points(const Pad& pad, int points) {
-  if (const auto* disc = std::get_if<DiscPad>(&pad))
-    return disc_points(disc->radius, points);
-  if (const auto* rectangle = std::get_if<RectanglePad>(&pad)) {
-    return rectangle_points(rectangle->size, points);
+PadDensity::PadDensity(const Pad& pad, const PadPressure& pressure)
+    : along_(Vec2::UnitX()),
+      half_(Vec2::Zero()),
+      round_(std::holds_alternative<DiscPad>(pad)),
+      hertz_(pressure.profile == PressureProfile::kHertz),
+      edge_load_(pressure.edge_load) {
+  if (const auto* disc = std::get_if<DiscPad>(&pad)) {
+    half_.setConstant(disc->radius);
+    mean_square_ = disc->radius * disc->radius * (hertz_ ? 0.4 : 0.5);
+    return;
   }
-  if (const auto* line = std::get_if<LinePad>(&pad)) return line_points(*line, points);
-  ContactPoints point;
-  point.coverage = 1.0;
-  add(point, Vec2::Zero(), 1.0);
-  return point;
+  if (const auto* rectangle = std::get_if<RectanglePad>(&pad)) {
+    half_ = 0.5 * rectangle->size;
+  } else if (const auto* line = std::get_if<LinePad>(&pad)) {
+    half_.x() = 0.5 * line->length;
+    along_ = {std::cos(line->angle), std::sin(line->angle)};
+  }
+  mean_square_ = half_.squaredNorm() * (hertz_ ? 1.0 / 4.0 : 1.0 / 3.0);
+}
+
+double PadDensity::operator()(const Vec2& p) const {
+  double density = 1.0;
+  if (hertz_ && round_) {
+    density = std::sqrt(std::max(0.0, 1.0 - p.squaredNorm() / (half_.x() * half_.x())));
+  } else if (hertz_) {
+    const Vec2 place(along_.dot(p), cross(along_, p));
+    for (int i = 0; i < 2; ++i) {
+      if (half_[i] == 0.0) continue;
+      const double share = place[i] / half_[i];
+      density *= std::sqrt(std::max(0.0, 1.0 - share * share));
+    }
+  }
+  if (edge_load_ != 0.0 && mean_square_ > 0.0) {
+    constexpr double kLeast = 0.02;
+    density *=
+        std::max(kLeast, 1.0 + edge_load_ * (p.squaredNorm() / mean_square_ - 1.0));
+  }
+  return density;
+}
+
+Pad in_plane_equivalent(const Pad& pad) {
+  const auto* point = std::get_if<PointPad>(&pad);
+  if (!point || !point->spin_radius) return pad;
+  return DiscPad{.radius = 1.5 * *point->spin_radius};
+}
+
+ContactPoints pad_points(const Pad& pad, const PadPressure& pressure, int points) {
+  ContactPoints result;
+  if (const auto* disc = std::get_if<DiscPad>(&pad)) {
+    result = disc_points(disc->radius, points);
+  } else if (const auto* rectangle = std::get_if<RectanglePad>(&pad)) {
+    result = rectangle_points(rectangle->size, points);
+  } else if (const auto* line = std::get_if<LinePad>(&pad)) {
+    result = line_points(*line, points);
+  } else {
+    result.coverage = 1.0;
+    add(result, Vec2::Zero(), 1.0);
+  }
+  const PadDensity density(pad, pressure);
+  if (density.is_uniform() || result.count == 1) return result;
+  double sum = 0.0;
+  for (int j = 0; j < result.count; ++j) {
+    result.weight[j] *= density({result.x[j], result.y[j]});
+    sum += result.weight[j];
+  }
+  for (int j = 0; j < result.count; ++j) result.weight[j] /= sum;
+  return result;
 }
 
 double pad_reach(const Pad& pad) {
@@ -231,7 +287,8 @@ double pad_reach(const Pad& pad) {
   return 0.0;
 }
 
-std::vector<PadCell> pad_cells(const Pad& pad, int per_side) {
+std::vector<PadCell> pad_cells(const Pad& pad, const PadPressure& pressure,
+                               int per_side) {
   std::vector<PadCell> cells;
   if (const auto* disc = std::get_if<DiscPad>(&pad))
     cells = disc_cells(disc->radius, per_side);
@@ -239,18 +296,23 @@ std::vector<PadCell> pad_cells(const Pad& pad, int per_side) {
     cells = rectangle_cells(rectangle->size, per_side);
   }
   if (const auto* line = std::get_if<LinePad>(&pad)) cells = line_cells(*line, per_side);
-  double area = 0.0;
+  const PadDensity density(pad, pressure);
+  double load = 0.0;
   double torque = 0.0;
   for (const PadCell& cell : cells) {
-    area += cell.measure;
-    torque += cell.measure * cell.centroid.norm();
+    const double share = cell.measure * density(cell.centroid);
+    load += share;
+    torque += share * cell.centroid.norm();
   }
-  const ContactPoints fine = pad_points(pad, 64);
+  const ContactPoints fine = pad_points(pad, pressure, 64);
   double wanted = 0.0;
   for (int j = 0; j < fine.count; ++j) {
     wanted += fine.weight[j] * std::hypot(fine.x[j], fine.y[j]);
   }
-  for (PadCell& cell : cells) cell.centroid *= wanted * area / torque;
+  for (PadCell& cell : cells) {
+    cell.pressure = density(cell.centroid);
+    cell.centroid *= wanted * load / torque;
+  }
   return cells;
 }
 

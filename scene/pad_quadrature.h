@@ -9,11 +9,34 @@
 
 namespace prehensile {
 
+/// Pressure at a place of a pad, up to a factor.
+class PadDensity {
+ public:
+  PadDensity(const Pad& pad, const PadPressure& pressure);
+
+  /// At p in H; 0 beyond the rim of a profile that ends there.
+  double operator()(const Vec2& p) const;
+
+  bool is_uniform() const { return !hertz_ && edge_load_ == 0.0; }
+
+ private:
+  Vec2 along_;  // unit, of the pad's first side
+  Vec2 half_;   // [m] half sides or radius; 0 along a side that the pad lacks
+  bool round_;
+  bool hertz_;
+  double edge_load_;
+  double mean_square_ = 0.0;  // [m^2] of the distance to the finger axis, by the profile
+};
+
 /// Quadrature of a whole pad about the finger axis, weights summing to 1. Disc: Gauss
-/// rings, exact for the torque; rectangle: Gauss points on four panels; line: cell
-/// centres, exact for the torque. Never on the rim, where points would hold too much
-/// torque. `points`: 1, 4, 8, 16, 32 or 64; a point pad has one.
-ContactPoints pad_points(const Pad& pad, int points);
+/// rings, exact for the torque of uniform pressure; rectangle: Gauss points on four
+/// panels; line: cell centres, exact for the torque. Never on the rim, where points would
+/// hold too much torque. `points`: 1, 4, 8, 16, 32 or 64; a hard point pad has one.
+ContactPoints pad_points(const Pad& pad, const PadPressure& pressure, int points);
+
+/// The pad as friction in the pad plane knows it: a soft point is stood for by the round
+/// patch with the same largest friction moment.
+Pad in_plane_equivalent(const Pad& pad);
 
 /// Largest distance of a pad point from the finger axis [m].
 double pad_reach(const Pad& pad);
@@ -28,12 +51,13 @@ struct PadCell {
   double measure = 0.0;          ///< [m^2], or [m] for a segment
   Vec2 centroid = Vec2::Zero();  ///< [m]
   double reach = 0.0;            ///< [m] farthest vertex from the centroid
+  double pressure = 1.0;         ///< at the centroid, up to a factor common to the pad
 };
 
 /// Cuts a pad into cells, `per_side` along each side, scaled about the finger axis by the
 /// few tenths of a per cent that give them the torque radius of `pad_points`: so the pad
 /// loses no torque at the moment it starts to leave the face.
-std::vector<PadCell> pad_cells(const Pad& pad, int per_side);
+std::vector<PadCell> pad_cells(const Pad& pad, const PadPressure& pressure, int per_side);
 
 /// A triangle of the outline, counter-clockwise, in O.
 struct Triangle {

@@ -1,6 +1,7 @@
 #include "scene/scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <set>
@@ -99,6 +100,14 @@ void check_object(Checker& checker, const Object& object) {
     checker.in_range("object.inertia", *object.inertia, 0.0, 1e6, "kg m^2");
   }
   if (object.p_OCom) checker.place("object.centre_of_mass", *object.p_OCom);
+  if (checker.clean()) {
+    const double half = half_thickness(object.shape);
+    checker.in_range("object.centre_of_mass.2", object.z_OCom, -half, half, "m");
+    if (object.z_OCom != 0.0 && !object.p_OCom) {
+      checker.fault("object.centre_of_mass",
+                    "only its height is given: expected all its coordinates");
+    }
+  }
   if (object.p_OCom && checker.clean()) {
     const std::vector<Vec2> outline = outline_of(object.shape);
     double farthest = 0.0;
@@ -121,6 +130,10 @@ void check_pad(Checker& checker, const Gripper& gripper, const Object& object) {
   } else if (const auto* line = std::get_if<LinePad>(&gripper.pad)) {
     checker.length(field + ".line.length", line->length);
     checker.angle(field + ".line.angle_deg", line->angle);
+  } else if (const auto* point = std::get_if<PointPad>(&gripper.pad)) {
+    if (point->spin_radius) {
+      checker.length(field + ".point.spin_radius", *point->spin_radius);
+    }
   }
   const bool thin = std::holds_alternative<LinePad>(gripper.pad) ||
                     std::holds_alternative<PointPad>(gripper.pad);
@@ -132,8 +145,15 @@ void check_pad(Checker& checker, const Gripper& gripper, const Object& object) {
   }
 }
 
+void check_pressure(Checker& checker, const PadPressure& pressure) {
+  const std::string field = "gripper.pressure";
+  checker.in_range(field + ".compliance", pressure.compliance, 1e-8, 1e3, "");
+  checker.in_range(field + ".edge_load", pressure.edge_load, -1.0, 3.0, "");
+}
+
 void check_gripper(Checker& checker, const Gripper& gripper, const Object& object) {
   check_pad(checker, gripper, object);
+  check_pressure(checker, gripper.pressure);
   for (const double mu : gripper.friction) {
     checker.in_range("gripper.friction", mu, 0.0, 1e3, "");
   }
@@ -160,7 +180,7 @@ void check_gripper(Checker& checker, const Gripper& gripper, const Object& objec
 
 void check_faces(Checker& checker, const std::string& path, const Pusher& pusher,
                  const std::vector<Face>& faces) {
-  const auto* line = std::get_if<LineFeature>(&pusher.feature);
+  const std::optional<double> length = length_in_plane(pusher.feature);
   for (const std::string& wanted : pusher.faces) {
     const int face = find_face(faces, wanted);
     if (face < 0) {
@@ -172,12 +192,38 @@ void check_faces(Checker& checker, const std::string& path, const Pusher& pusher
       continue;
     }
     const double room = faces[face].length();
-    if (line && !faces[face].on_hull && !(line->length && *line->length <= room)) {
+    if (length && !faces[face].on_hull && !(*length <= room)) {
       checker.fault(path + ".faces", wanted + ": lies in a notch of " + text(room) +
                                          " m: expected a point or a "
                                          "line of at most that length");
     }
   }
+}
+
+void check_feature(Checker& checker, const std::string& path,
+                   const PusherFeature& feature) {
+  const auto size = [&](const char* key, const std::optional<double>& value) {
+    if (value) checker.length(path + key, *value);
+  };
+  if (const auto* line = std::get_if<LineFeature>(&feature)) {
+    size(".line.length", line->length);
+  } else if (const auto* upright = std::get_if<UprightFeature>(&feature)) {
+    size(".upright.length", upright->length);
+  } else if (const auto* plane = std::get_if<PlaneFeature>(&feature)) {
+    size(".plane.length", plane->length);
+    size(".plane.width", plane->width);
+  }
+}
+
+void check_height(Checker& checker, const std::string& path, const Pusher& pusher,
+                  double half_thickness) {
+  const double most = half_thickness + 0.5 * width_across_plane(pusher.feature);
+  if (!std::isfinite(pusher.z_WP) || std::abs(pusher.z_WP) <= most) return;
+  checker.fault(path + ".position.2",
+                text(pusher.z_WP) +
+                    ": expected a height at which the pusher meets the "
+                    "object, at most " +
+                    text(most) + " m from its mid-plane");
 }
 
 void check_pushers(Checker& checker, const Scene& scene) {
@@ -201,10 +247,23 @@ void check_pushers(Checker& checker, const Scene& scene) {
     }
     checker.in_range(path + ".friction", pusher.friction, 0.0, 1e3, "");
     checker.place(path + ".position", pusher.p_WP);
+    checker.in_range(path + ".position.2", pusher.z_WP, -kLongest, kLongest, "m");
     checker.angle(path + ".normal_deg", pusher.normal_angle);
-    const auto* line = std::get_if<LineFeature>(&pusher.feature);
-    if (line && line->length) checker.length(path + ".line.length", *line->length);
-    if (shape_is_sound) check_faces(checker, path, pusher, faces);
+    check_feature(checker, path, pusher.feature);
+    if (shape_is_sound) {
+      check_faces(checker, path, pusher, faces);
+      check_height(checker, path, pusher, half_thickness(scene.object.shape));
+    }
+  }
+}
+
+/// A cylinder on its curved side rests on two lines; what turns it about its axis is the
+/// business of the cross-section, which knows no load along the closing direction.
+void check_cross_section(Checker& checker, const Scene& scene) {
+  const char* expected = ": expected 0 for a cylinder held on its curved side";
+  if (scene.g_Wz != 0.0) checker.fault("gravity.2", text(scene.g_Wz) + expected);
+  if (scene.object.z_OCom != 0.0) {
+    checker.fault("object.centre_of_mass.2", text(scene.object.z_OCom) + expected);
   }
 }
 
@@ -252,13 +311,35 @@ bool can_roll(const Object& object) {
   return cylinder && cylinder->axis != Axis::kZ;
 }
 
+std::optional<double> length_in_plane(const PusherFeature& feature) {
+  if (const auto* line = std::get_if<LineFeature>(&feature)) {
+    return line->length.value_or(kInfinity);
+  }
+  if (const auto* plane = std::get_if<PlaneFeature>(&feature)) {
+    return plane->length.value_or(kInfinity);
+  }
+  return std::nullopt;
+}
+
+double width_across_plane(const PusherFeature& feature) {
+  if (const auto* upright = std::get_if<UprightFeature>(&feature)) {
+    return upright->length.value_or(kInfinity);
+  }
+  if (const auto* plane = std::get_if<PlaneFeature>(&feature)) {
+    return plane->width.value_or(kInfinity);
+  }
+  return 0.0;
+}
+
 std::vector<Fault> check(const Scene& scene) {
   Checker checker;
   const bool rolls = can_roll(scene.object);
   check_object(checker, scene.object);
   check_pushers(checker, scene);
   check_gripper(checker, scene.gripper, scene.object);
-  checker.in_range("gravity", scene.g_W.norm(), 0.0, 1e3, "m/s^2");
+  checker.in_range("gravity", std::hypot(scene.g_W.x(), scene.g_W.y(), scene.g_Wz), 0.0,
+                   1e3, "m/s^2");
+  if (rolls) check_cross_section(checker, scene);
   check_pose(checker, "start", scene.start);
   if (scene.start.psi != 0.0 && !rolls) {
     checker.fault(

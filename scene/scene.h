@@ -42,6 +42,7 @@ struct Object {
   Shape shape;
   double mass = 0.0;           ///< [kg], > 0
   std::optional<Vec2> p_OCom;  ///< [m] centre of mass in O; unset: centroid of the shape
+  double z_OCom = 0.0;         ///< [m] its height above the mid-plane, along z of O
   std::optional<double> inertia;  ///< [kg m^2] about z through the centre of mass; unset:
                                   ///< that of the homogeneous shape
 };
@@ -57,9 +58,42 @@ struct LinePad {
   double length = 0.0;  ///< [m]
   double angle = 0.0;   ///< [rad] of the line in H
 };
-struct PointPad {};
+/// A hard point carries friction forces only; a soft one a moment about its normal as
+/// well, the two bounded together: |f|^2 + (m / spin_radius)^2 <= (mu n)^2.
+struct PointPad {
+  std::optional<double> spin_radius;  ///< [m] unset: hard; of a round patch: 2/3 of its
+                                      ///< radius
+};
 
 using Pad = std::variant<DiscPad, RectanglePad, LinePad, PointPad>;
+
+/// How the normal load of a pad spreads over its points when the push shifts it.
+enum class PressureLaw {
+  kFoundation,  ///< preloaded elastic foundation; the answer is unique
+  kGiven,       ///< the split at rest, whatever happens
+  kFree,        ///< rigid, as in the paper; forces, and often motions, are not unique
+};
+
+/// How the load of a pad at rest falls off from its middle.
+enum class PressureProfile {
+  kUniform,
+  kHertz,  ///< of rounded bodies: sqrt(1 - r^2) over a disc of radius 1; the product of
+           ///< sqrt(1 - x^2) along both sides of a rectangle, or along a line
+};
+
+struct PadPressure {
+  PressureLaw law = PressureLaw::kFoundation;
+  /// Of the foundation, in units of pusher travel over force: elastic deflection of a pad
+  /// under the grip force over the travel that the answer is for, > 0. 1e-3 is within a
+  /// per mille of rigid pads.
+  double compliance = 1e-3;
+  PressureProfile profile = PressureProfile::kUniform;
+  /// p of the factor max(0.02, 1 + p (r^2 / mean r^2 - 1)) on the profile: the edge of
+  /// the pad is loaded more (p > 0) or less (p < 0) than its middle; -1..3.
+  double edge_load = 0.0;
+
+  friend bool operator==(const PadPressure&, const PadPressure&) = default;
+};
 
 /// How the two jaws are driven along the closing direction.
 enum class JawMode {
@@ -82,26 +116,42 @@ struct Gripper {
   std::array<double, 2> friction = {0.0, 0.0};  ///< of jaw 1 and jaw 2, >= 0
   double grip_force = 0.0;                      ///< [N] of each finger, >= 0
   JawMode jaw_mode = JawMode::kCoupled;
+  PadPressure pressure;
   ToolTransform tool;
 };
 
 /// A point of the environment.
 struct PointFeature {};
 
-/// A straight edge or the section of a wall. Unset length: longer than any face.
+/// A straight edge in the pad plane. Unset length: longer than any face.
 struct LineFeature {
   std::optional<double> length;  ///< [m]
 };
 
-using PusherFeature = std::variant<PointFeature, LineFeature>;
+/// A straight edge along the closing direction. Unset length: longer than the object is
+/// thick. In the pad plane it is a point.
+struct UprightFeature {
+  std::optional<double> length;  ///< [m]
+};
+
+/// A flat face. Unset: longer than any face, wider than the object is thick. In the pad
+/// plane it is a line.
+struct PlaneFeature {
+  std::optional<double> length;  ///< [m] in the pad plane
+  std::optional<double> width;   ///< [m] along the closing direction
+};
+
+using PusherFeature =
+    std::variant<PointFeature, LineFeature, UprightFeature, PlaneFeature>;
 
 /// A feature that stands still in the world W. W is aligned with O at the start.
 struct Pusher {
   std::string name;
   PusherFeature feature;
-  double friction = 0.0;           ///< >= 0
-  Vec2 p_WP = Vec2::Zero();        ///< [m] centre of the feature in W
-  double normal_angle = 0.0;       ///< [rad] in W of the normal, into the object
+  double friction = 0.0;      ///< >= 0
+  Vec2 p_WP = Vec2::Zero();   ///< [m] centre of the feature in W
+  double z_WP = 0.0;          ///< [m] its height above the object's mid-plane, along z
+  double normal_angle = 0.0;  ///< [rad] in W of the normal, into the object
   std::vector<std::string> faces;  ///< faces of the object it may touch; empty: the one
                                    ///< opposite to its normal at the start
 };
@@ -143,6 +193,7 @@ struct Scene {
   Gripper gripper;
   std::vector<Pusher> pushers;
   Vec2 g_W = {0.0, -9.81};  ///< [m/s^2] gravity in W, in the pad plane
+  double g_Wz = 0.0;        ///< [m/s^2] gravity along the closing direction
   Overhang overhang = Overhang::kClip;
   Grasp start;
   std::optional<Goal> goal;
@@ -162,5 +213,13 @@ std::vector<Fault> check(const Scene& scene);
 
 /// True for a cylinder that the pads hold on its curved side.
 bool can_roll(const Object& object);
+
+/// Length in the pad plane of a feature that is a line there [m]: infinity if it is
+/// longer than any face; nothing for one that is a point there.
+std::optional<double> length_in_plane(const PusherFeature& feature);
+
+/// Extent along the closing direction [m]: infinity if wider than any object, 0 for a
+/// point and an edge in the pad plane.
+double width_across_plane(const PusherFeature& feature);
 
 }  // namespace prehensile

@@ -67,9 +67,48 @@ TEST(Program, SpatialSolverTakesPushersOffTheMidPlane) {
   EXPECT_NEAR(json::parse(middle.out).at("push_force"), force, 1e-5 * force);
   EXPECT_LT(json::parse(above.out).at("certificate").at("worst"), 1e-6);
   EXPECT_NE(json::parse(above.out).at("object_twist")[4], 0.0);
-  EXPECT_EQ(run_program(slide + "--height-mm 5").exit_code, 2);
+  EXPECT_EQ(run_program(slide + "--solver exact --height-mm 5").exit_code, 2);
   EXPECT_EQ(run_program(slide + "--solver spatial --height-mm 13").exit_code, 2);
-  EXPECT_EQ(run_program(slide + "--solver spatial --acceleration 1").exit_code, 2);
+}
+
+/// What the scene lacks decides the solver, and the answer says so.
+TEST(Program, TheSolverIsTheOneThatTheQuestionNeeds) {
+  const std::string slide = "query instant problems/paper/slide.yaml --json ";
+  const auto solver = [&](const std::string& options) {
+    const Outcome told = run_program(slide + options);
+    EXPECT_EQ(told.exit_code, 0) << told.out << told.err;
+    const json answer = json::parse(told.out);
+    EXPECT_LT(answer.at("certificate").at("worst"), 1e-6) << options;
+    EXPECT_NE(answer.at("why_this_solver"), "");
+    return answer.at("solver").get<std::string>();
+  };
+  EXPECT_EQ(solver(""), "exact");
+  EXPECT_EQ(solver("--height-mm 5"), "spatial");
+  EXPECT_EQ(solver("--rise-mm-s 1"), "spatial");
+  EXPECT_EQ(solver("--tilt-deg-s 1,0"), "spatial");
+  EXPECT_EQ(solver("--set 'gravity=[0, -4, 2]'"), "spatial");
+  EXPECT_EQ(solver("--set 'gripper.friction=[0.5, 0.6]'"), "spatial");
+  EXPECT_EQ(solver("--set 'pushers.0.position=[0, 0, 0.004]'"), "spatial");
+  EXPECT_EQ(solver("--set 'gripper.pad={point: {spin_radius: 0.006}}'"), "closed");
+}
+
+/// A straight slide of an object with mass: the force grows by mass times acceleration,
+/// in the pad plane and in space.
+TEST(Program, AccelerationCostsItsInertia) {
+  const std::string slide =
+      "query instant problems/paper/slide.yaml --json --set gravity=[0,0] ";
+  const auto force = [&](const std::string& options) {
+    const Outcome told = run_program(slide + options);
+    EXPECT_EQ(told.exit_code, 0) << told.out << told.err;
+    return json::parse(told.out).at("push_wrench").at(0).get<double>();
+  };
+  const double quasi_static = force("");
+  const double mass = 0.1;
+  for (const std::string solver : {"exact", "spatial"}) {
+    EXPECT_NEAR(force("--acceleration 2 --set object.mass=0.1 --solver " + solver),
+                quasi_static + 2.0 * mass, 1e-6)
+        << solver;
+  }
 }
 
 TEST(Program, SensitivitiesAreThoseOfTheForce) {

@@ -38,7 +38,7 @@ inline Pad random_pad(Random& random, bool thin_ones_too) {
     case 2:
       return LinePad{random.in(0.002, 0.04), random.in(-1.0, 1.0)};
     default:
-      return PointPad{};
+      return random.chance(0.5) ? PointPad{} : PointPad{random.in(1e-3, 1e-2)};
   }
 }
 
@@ -58,13 +58,24 @@ inline Goal random_goal(Random& random, bool rolls) {
 inline Pusher random_pusher(Random& random, int number) {
   Pusher pusher;
   pusher.name = "pusher \"" + std::to_string(number) + "\" # \\ \xc3\xa4";
-  if (random.chance(0.3)) {
-    pusher.feature = PointFeature{};
-  } else {
-    LineFeature line;
-    if (random.chance(0.5)) line.length = random.in(0.001, 0.2);
-    pusher.feature = line;
+  const auto length = [&random]() -> std::optional<double> {
+    if (random.chance(0.5)) return std::nullopt;
+    return random.in(0.001, 0.2);
+  };
+  switch (random.below(5)) {
+    case 0:
+      pusher.feature = PointFeature{};
+      break;
+    case 1:
+      pusher.feature = UprightFeature{length()};
+      break;
+    case 2:
+      pusher.feature = PlaneFeature{length(), length()};
+      break;
+    default:
+      pusher.feature = LineFeature{length()};
   }
+  if (random.chance(0.3)) pusher.z_WP = random.in(-0.005, 0.005);
   pusher.friction = random.in(0.0, 1.0);
   pusher.p_WP = random.in_box(1.0, 1.0);
   pusher.normal_angle = random.in(-3.0, 3.0);
@@ -79,20 +90,30 @@ inline Scene random_scene(Random& random) {
   scene.origin = random.chance(0.5) ? "" : "- nowhere\t# really";
   scene.object.shape = random_shape(random);
   scene.object.mass = random.log_in(1e-3, 10.0);
-  if (random.chance(0.3)) scene.object.p_OCom = random.in_disc(0.01);
-  if (random.chance(0.3)) scene.object.inertia = random.log_in(1e-8, 1e-2);
   const bool rolls = can_roll(scene.object);
+  if (random.chance(0.3)) {
+    scene.object.p_OCom = random.in_disc(0.01);
+    if (!rolls && random.chance(0.5)) scene.object.z_OCom = random.in(-0.005, 0.005);
+  }
+  if (random.chance(0.3)) scene.object.inertia = random.log_in(1e-8, 1e-2);
   scene.gripper.name = "null";
   scene.gripper.pad = random_pad(random, !rolls);
   scene.gripper.friction = {random.in(0.0, 1.0), random.in(0.0, 1.0)};
   scene.gripper.grip_force = random.in(0.0, 100.0);
   scene.gripper.jaw_mode = static_cast<JawMode>(random.below(3));
+  if (random.chance(0.3)) {
+    scene.gripper.pressure = {.law = static_cast<PressureLaw>(random.below(3)),
+                              .compliance = random.log_in(1e-6, 1.0),
+                              .profile = static_cast<PressureProfile>(random.below(2)),
+                              .edge_load = random.in(-0.5, 1.0)};
+  }
   const double half = random.in(-3.0, 3.0);
   scene.gripper.tool.p_HT = {random.in(-0.1, 0.1), random.in(-0.1, 0.1), 1e-17};
   scene.gripper.tool.q_HT = {std::sin(half), 0.0, 0.0, std::cos(half)};
   const int pushers = random.below(4);
   for (int i = 0; i < pushers; ++i) scene.pushers.push_back(random_pusher(random, i));
   scene.g_W = random.in_box(10.0, 10.0);
+  if (!rolls && random.chance(0.3)) scene.g_Wz = random.in(-10.0, 10.0);
   scene.overhang = static_cast<Overhang>(random.below(2));
   scene.start.X_HO = {random.in(-0.002, 0.002), random.in(-0.002, 0.002),
                       random.chance(0.5)

@@ -117,9 +117,9 @@ std::string scene_around(const std::string& path) {
   if (path.find("prism") != std::string::npos) {
     shape = "prism: {outline: [[-1, -1], [1, -1], [0, 1]], thickness: 0.1}";
   }
-  const std::string pad = path.find("pad.line") == std::string::npos
-                              ? "disc: {radius: 0.01}"
-                              : "line: {length: 0.01}";
+  std::string pad = "disc: {radius: 0.01}";
+  if (path.find("pad.line") != std::string::npos) pad = "line: {length: 0.01}";
+  if (path.find("pad.point") != std::string::npos) pad = "point: {}";
   return "version: 1\nobject: {" + shape + ", mass: 1}\ngripper: {pad: {" + pad +
          "}, friction: 1, grip_force: 1}\ngoal: {x: 0}\n";
 }

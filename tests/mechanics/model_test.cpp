@@ -83,7 +83,7 @@ TEST(Model, InertiaAboutTheFingerAxis) {
   const PlanarTwist V(0.3, -0.2, 4.0);
   const Vec2 v_com = point_velocity(V, transform(X_HO, model.p_OCom));
   const double twice_energy =
-      model.mass * v_com.squaredNorm() + model.inertia * V[2] * V[2];
+      model.mass * v_com.squaredNorm() + model.inertia_O(2, 2) * V[2] * V[2];
   EXPECT_NEAR(V.dot(grasp.inertia * V), twice_energy, 1e-12);
 }
 

@@ -24,7 +24,7 @@ TEST(Outline, AreaCentroidAndPolarMomentOfARectangle) {
       properties_of({{1.0, 2.0}, {5.0, 2.0}, {5.0, 4.0}, {1.0, 4.0}});
   EXPECT_DOUBLE_EQ(p.area, 8.0);
   EXPECT_NEAR((p.centroid - Vec2(3.0, 3.0)).norm(), 0.0, 1e-14);
-  EXPECT_NEAR(p.polar, 8.0 * (16.0 + 4.0) / 12.0, 1e-12);
+  EXPECT_NEAR(p.second.trace(), 8.0 * (16.0 + 4.0) / 12.0, 1e-12);
 }
 
 TEST(Outline, RoundOutlineHasTheAreaOfItsCircle) {

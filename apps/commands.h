@@ -30,5 +30,6 @@ Command add_check(CLI::App& app);
 Command add_query_instant(CLI::App& query);
 Command add_query_push(CLI::App& query);
 Command add_inspect(CLI::App& app);
+Command add_mesh(CLI::App& app);  ///< not in builds without meshes
 
 }  // namespace prehensile::apps

@@ -40,12 +40,16 @@ int run(int argc, char** argv) {
   const Command instant = add_query_instant(query);
   const Command push = add_query_push(query);
   const Command inspect = add_inspect(app);
-  const std::vector<std::pair<const CLI::App*, Command>> commands = {
+  std::vector<std::pair<const CLI::App*, Command>> commands = {
       {app.get_subcommand("plan"), plan},
       {app.get_subcommand("check"), check},
       {query.get_subcommand("instant"), instant},
       {query.get_subcommand("push"), push},
       {app.get_subcommand("inspect"), inspect}};
+#ifdef PREHENSILE_HAS_MESHES
+  const Command mesh = add_mesh(app);
+  commands.emplace_back(app.get_subcommand("mesh"), mesh);
+#endif
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

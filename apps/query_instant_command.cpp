@@ -146,10 +146,12 @@ InstantQuestion asked(const Options& options, const Model& model, int contact,
                       const Grasp& grasp) {
   SpatialQuestionOptions how{.from_rest = options.acceleration > 0.0};
   if (options.height_mm) {
-    const double most = to_mm(model.half_thickness);
-    if (std::abs(*options.height_mm) > most) {
-      throw BadInput(text("--height-mm %g: expected -%g to %g, where the object is",
-                          *options.height_mm, most, most));
+    const Face& face = model.faces[model.contacts[contact].face];
+    const double low = to_mm(face.z_low);
+    const double high = to_mm(face.z_high);
+    if (*options.height_mm < low || *options.height_mm > high) {
+      throw BadInput(text("--height-mm %g: expected %g to %g, where the object is",
+                          *options.height_mm, low, high));
     }
     how.height = 1e-3 * *options.height_mm;
   }

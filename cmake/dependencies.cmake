@@ -26,6 +26,17 @@ if(PREHENSILE_APPS)
   find_package(ZLIB REQUIRED)
 endif()
 
+if(PREHENSILE_MESHES)
+  find_package(assimp 5.2 REQUIRED)
+  find_package(tinyxml2 REQUIRED)
+  find_path(POLYCLIPPING_INCLUDE polyclipping/clipper.hpp REQUIRED)
+  find_library(POLYCLIPPING_LIBRARY polyclipping REQUIRED)
+  add_library(prehensile_polyclipping INTERFACE)
+  target_include_directories(prehensile_polyclipping SYSTEM INTERFACE
+    ${POLYCLIPPING_INCLUDE})
+  target_link_libraries(prehensile_polyclipping INTERFACE ${POLYCLIPPING_LIBRARY})
+endif()
+
 if(PREHENSILE_TESTS)
   find_package(GTest REQUIRED)
 endif()

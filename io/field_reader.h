@@ -51,9 +51,10 @@ class FieldReader {
     const Value* value = take(key, need, numbers_of(numbers.size()));
     if (value) read_numbers(*value, child(key), bounds, numbers);
   }
-  void vector(const char* key, std::optional<Vec2>& into, const Bounds& bounds,
+  template <typename Vector>
+  void vector(const char* key, std::optional<Vector>& into, const Bounds& bounds,
               const char* doc) {
-    Vec2 value = Vec2::Zero();
+    Vector value = Vector::Zero();
     const bool present = map_.find(key) != nullptr;
     vector(key, value, bounds, kOptional, doc);
     if (present) into = value;

@@ -83,9 +83,11 @@ class FieldSchema {
                      values, need),
         need, with_unit(doc, bounds));
   }
-  void vector(const char* key, const std::optional<Vec2>&, const Bounds& bounds,
+  template <typename Vector>
+  void vector(const char* key, const std::optional<Vector>&, const Bounds& bounds,
               const char* doc) {
-    add(key, numbers_schema(2, bounds), kOptional, with_unit(doc, bounds));
+    add(key, numbers_schema(Vector::SizeAtCompileTime, bounds), kOptional,
+        with_unit(doc, bounds));
   }
 
   void place(const char* key, const Vec2& initial, double, const Bounds& bounds,

@@ -56,7 +56,8 @@ class FieldWriter {
   void vector(const char* key, const Vector& from, const Bounds&, Need, const char*) {
     map_.add(key, numbers(from));
   }
-  void vector(const char* key, const std::optional<Vec2>& from, const Bounds&,
+  template <typename Vector>
+  void vector(const char* key, const std::optional<Vector>& from, const Bounds&,
               const char*) {
     if (from) map_.add(key, numbers(*from));
   }

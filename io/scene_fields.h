@@ -37,6 +37,46 @@ inline constexpr std::array<Word<GoalTest>, 2> kGoalTestWords = {
     {{GoalTest::kPerCoordinate, "per_coordinate"},
      {GoalTest::kWeightedSum, "weighted_sum"}}};
 
+inline constexpr std::array<Word<double>, 4> kUnitWords = {
+    {{1.0, "m"}, {0.01, "cm"}, {0.001, "mm"}, {0.0254, "inch"}}};
+
+template <typename Fields>
+void visit_solid(Fields& fields, SolidShape& solid) {
+  fields.points("outline", solid.outline, Length{3, 200}, kPlaces,
+                "Silhouette along z, counter-clockwise.");
+  fields.points("pad_face", solid.pad_face, Length{3, 200}, kPlaces,
+                "Where both pads find a flat face, counter-clockwise.");
+  fields.points("heights", solid.heights, Length{3, 200}, kPlaces,
+                "Lowest and highest point of the side at each edge of the outline.");
+  fields.number("thickness", solid.thickness, kLengths, kRequired,
+                "Between the two faces that the pads hold.");
+  fields.vector("centroid", solid.centroid, kPlaces, kRequired,
+                "Centre of the homogeneous body.");
+  const Eigen::Matrix3d& m = solid.spread;
+  std::array<double, 6> spread{m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)};
+  fields.vector("spread", spread, {-100.0, 100.0, "m^2"}, kRequired,
+                "Mean of xx, yy, zz, xy, xz, yz over the homogeneous body, from its "
+                "centre.");
+  solid.spread << spread[0], spread[3], spread[4],  //
+      spread[3], spread[1], spread[5],              //
+      spread[4], spread[5], spread[2];
+}
+
+template <typename Fields>
+void visit_mesh(Fields& fields, MeshShape& mesh) {
+  fields.text("file", mesh.file, kRequired,
+              "STL or OBJ file in the folder of the scene, or below.");
+  fields.word("unit", mesh.unit, kUnitWords, kRequired, "Of the numbers in the file.");
+  fields.text("pair", mesh.pair, kOptional,
+              "Faces that the jaws hold, by the names that `prehensile mesh` lists.");
+  fields.vector("closing_direction", mesh.closing, kPlaces,
+                "Instead of the name: the pair whose closing direction is nearest to "
+                "this, in the frame of the file.");
+  fields.vector("near", mesh.near_point, kPlaces,
+                "Of several such pairs the one nearest to this place, in metres in the "
+                "frame of the file.");
+}
+
 template <typename Fields>
 void visit_object(Fields& fields, Object& object) {
   fields.choice(
@@ -63,7 +103,15 @@ void visit_object(Fields& fields, Object& object) {
                      "Vertices [x, y], counter-clockwise; edges must not cross.");
             f.number("thickness", prism.thickness, kLengths, kRequired,
                      "Along z, between the jaws.");
-          }));
+          }),
+      alternative<SolidShape>("solid",
+                              "Any solid body held at two flat faces, as made from a "
+                              "mesh.",
+                              [](auto& f, SolidShape& solid) { visit_solid(f, solid); }),
+      alternative<MeshShape>("mesh",
+                             "A mesh file; it becomes a solid, and its mass is read from "
+                             "a URDF file of the same name if the scene gives none.",
+                             [](auto& f, MeshShape& mesh) { visit_mesh(f, mesh); }));
   fields.number("mass", object.mass, {1e-9, 1e4, "kg"}, kRequired, "Mass.");
   fields.place("centre_of_mass", object.p_OCom, object.z_OCom, kPlaces,
                "In O; a third number is its height above the mid-plane. Absent: centroid "

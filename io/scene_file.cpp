@@ -8,6 +8,7 @@
 #include "io/field_reader.h"
 #include "io/field_schema.h"
 #include "io/field_writer.h"
+#include "io/mesh_scene.h"
 #include "io/scene_fields.h"
 
 namespace prehensile {
@@ -46,7 +47,8 @@ std::string digest_of(const std::string& text) {
 }  // namespace
 
 SceneFile parse_scene(const std::string& text, const std::string& label,
-                      const std::vector<std::string>& overrides) {
+                      const std::vector<std::string>& overrides,
+                      const std::filesystem::path& folder) {
   Faults faults(label, overrides);
   if (text.size() > internal::kLargestScene) {
     faults.fail({}, "",
@@ -55,8 +57,10 @@ SceneFile parse_scene(const std::string& text, const std::string& label,
   }
   Value root = internal::parse_yaml(text, faults);
   internal::apply_overrides(root, overrides, faults);
+  internal::add_mass_beside_mesh(root, folder, faults);
   SceneFile file;
   internal::FieldReader::read(root, "", faults, file.scene, kVisit);
+  internal::load_mesh(file.scene, root, folder, faults);
   add_faults_of_values(file.scene, root, faults);
   faults.raise();
   file.text = text;
@@ -67,7 +71,7 @@ SceneFile parse_scene(const std::string& text, const std::string& label,
 SceneFile read_scene(const std::filesystem::path& file,
                      const std::vector<std::string>& overrides) {
   const std::string text = internal::read_text(file, internal::kLargestScene);
-  return parse_scene(text, file.string(), overrides);
+  return parse_scene(text, file.string(), overrides, file.parent_path());
 }
 
 std::string scene_to_yaml(const Scene& scene) {

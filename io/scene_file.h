@@ -30,9 +30,11 @@ struct SceneFile {
 SceneFile read_scene(const std::filesystem::path& file,
                      const std::vector<std::string>& overrides = {});
 
-/// The same from text; `label` stands for the file's name in messages.
+/// The same from text; `label` stands for the file's name in messages, `folder` is where
+/// the mesh files of the scene lie.
 SceneFile parse_scene(const std::string& text, const std::string& label,
-                      const std::vector<std::string>& overrides = {});
+                      const std::vector<std::string>& overrides = {},
+                      const std::filesystem::path& folder = {});
 
 /// A complete scene file, every field written out.
 std::string scene_to_yaml(const Scene& scene);

@@ -27,6 +27,14 @@ std::vector<int> touchable_faces(const Pusher& pusher, const std::vector<Face>& 
   return touchable;
 }
 
+/// The pusher meets the side of the object at its height.
+bool meets(const Pusher& pusher, const Face& face) {
+  constexpr double kSlack = 1e-6;  // [m]
+  const double half_width = 0.5 * width_across_plane(pusher.feature);
+  return pusher.z_WP + half_width >= face.z_low - kSlack &&
+         pusher.z_WP - half_width <= face.z_high + kSlack;
+}
+
 PushContact make_contact(const Scene& scene, int pusher_index, const Face& face,
                          int face_index) {
   const Pusher& pusher = scene.pushers[pusher_index];
@@ -42,9 +50,8 @@ PushContact make_contact(const Scene& scene, int pusher_index, const Face& face,
   contact.is_point = !length;
   contact.half_length = 0.5 * length.value_or(0.0);
   const double half_width = 0.5 * width_across_plane(pusher.feature);
-  const double half = half_thickness(scene.object.shape);
-  contact.z_low = std::clamp(pusher.z_WP - half_width, -half, half);
-  contact.z_high = std::clamp(pusher.z_WP + half_width, -half, half);
+  contact.z_low = std::clamp(pusher.z_WP - half_width, face.z_low, face.z_high);
+  contact.z_high = std::clamp(pusher.z_WP + half_width, face.z_low, face.z_high);
   contact.theta_WO = wrapped(pusher.normal_angle - std::atan2(face.n.y(), face.n.x()));
   contact.g_O = rotated(-contact.theta_WO, scene.g_W);
   return contact;
@@ -87,7 +94,8 @@ std::array<double, 2> jaw_forces(const Gripper& gripper, double w) {
 std::vector<std::string> load_shifts_of(const Scene& scene) {
   std::vector<std::string> found;
   if (scene.g_Wz != 0.0) found.emplace_back("gravity along the closing direction");
-  if (scene.object.z_OCom != 0.0) {
+  const double height = height_of_mass(scene.object);
+  if (std::abs(height) > 1e-6 * half_thickness(scene.object.shape)) {
     found.emplace_back("the centre of mass off the mid-plane");
   }
   if (scene.gripper.friction[0] != scene.gripper.friction[1]) {
@@ -183,16 +191,24 @@ Model prepare(const Scene& scene, const PrepareOptions& options) {
   Model model{
       .scene = scene, .options = options, .region = {scene, options.points_per_pad}};
   model.outline = outline_of(scene.object.shape);
+  model.pad_face = pad_face_of(scene.object.shape);
   model.faces = faces_of(scene.object.shape);
   for (std::size_t i = 0; i < scene.pushers.size(); ++i) {
     for (const int face : touchable_faces(scene.pushers[i], model.faces)) {
+      if (!meets(scene.pushers[i], model.faces[face])) {
+        std::string what = "pusher " + scene.pushers[i].name;
+        what += " on " + model.faces[face].name;
+        model.decisions.push_back(
+            {std::move(what), "the object has no side at the height of the pusher"});
+        continue;
+      }
       model.contacts.push_back(
           make_contact(scene, static_cast<int>(i), model.faces[face], face));
     }
   }
   model.p_OCom = centre_of_mass(scene.object);
   model.mass = scene.object.mass;
-  model.z_OCom = scene.object.z_OCom;
+  model.z_OCom = height_of_mass(scene.object);
   model.inertia_O = inertia_of(scene.object);
   model.jaw_force = jaw_forces(scene.gripper, model.mass * scene.g_Wz);
   model.F = scene.gripper.friction[0] * model.jaw_force[0] +
@@ -243,7 +259,7 @@ PlanarDrive drive_at(const PushContact& contact, double place, const PlanarPose&
 }
 
 bool pads_on_object(const Model& model, const PlanarPose& X_HO) noexcept {
-  return contains(model.outline, finger_in_object(X_HO)) &&
+  return contains(model.pad_face, finger_in_object(X_HO)) &&
          model.region.at(X_HO).count > 0;
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -36,7 +37,7 @@ struct PushContact {
   double theta_WO = 0.0;    ///< [rad] attitude of the object in W during contact
 
   /// The pusher pushes as much above the mid-plane as below.
-  bool is_symmetric() const { return z_low == -z_high; }
+  bool is_symmetric() const { return std::abs(z_low + z_high) < 1e-9; }
 
   /// Ends of the part of the face that carries load when the centre of the pusher stands
   /// at `place` [m along t from the centre of the face]. One point for a point pusher (a
@@ -62,6 +63,7 @@ struct Model {
   PrepareOptions options;
 
   std::vector<Vec2> outline;          ///< in O
+  std::vector<Vec2> pad_face;         ///< in O: the pads' centre has to stay on it
   std::vector<Face> faces;            ///< in O
   std::vector<PushContact> contacts;  ///< everything a planar push may name
   ContactRegion region;

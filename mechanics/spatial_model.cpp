@@ -118,11 +118,11 @@ SpatialProblem spatial_problem_at(const Model& model, const PushContact& contact
       2 * points.count + 2 * drive.count > SpatialProblem::kMaxPoints) {
     return problem;
   }
-  const double h = model.half_thickness;
+  const Face& face = model.faces[contact.face];
   const double middle = 0.5 * (contact.z_low + contact.z_high);
   const double shift = options.height ? *options.height - middle : 0.0;
-  const double z_low = std::clamp(contact.z_low + shift, -h, h);
-  const double z_high = std::clamp(contact.z_high + shift, -h, h);
+  const double z_low = std::clamp(contact.z_low + shift, face.z_low, face.z_high);
+  const double z_high = std::clamp(contact.z_high + shift, face.z_low, face.z_high);
 
   const Vec2 touch = 0.5 * (drive.p_HC[0] + drive.p_HC[drive.count - 1]);
   const double rate = rate_at({touch.x(), touch.y(), 0.5 * (z_low + z_high)}, V_HP);

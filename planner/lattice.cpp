@@ -46,13 +46,13 @@ class LegTable {
 };
 
 bool is_node(const SearchModel& search, const Vec2& p_OF, double depth) {
-  return depth_inside(search.model->outline, p_OF) >= depth && held_by_some(search, p_OF);
+  return depth_inside(search.model->pad_face, p_OF) >= depth && held_by_some(search, p_OF);
 }
 
 }  // namespace
 
 std::vector<Vec2> lattice_nodes(const SearchModel& search, int wanted) {
-  const std::vector<Vec2>& outline = search.model->outline;
+  const std::vector<Vec2>& outline = search.model->pad_face;
   const double step = std::sqrt(properties_of(outline).area / wanted);
   Vec2 low = outline[0];
   Vec2 high = outline[0];

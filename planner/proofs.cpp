@@ -66,17 +66,17 @@ bool coordinate_is_off(const std::vector<Vec2>& outline, double theta, bool is_x
 bool verify_goal_off_object(const Model& model, std::string* why) {
   const Goal& goal = *model.scene.goal;
   double reach = 0.0;
-  for (const Vec2& vertex : model.outline) reach = std::max(reach, vertex.norm());
+  for (const Vec2& vertex : model.pad_face) reach = std::max(reach, vertex.norm());
   const bool off = for_all_goal_angles(goal, [&](double theta, double half_step) {
     const double slack = place_tolerance(goal) + 1e-9;
     if (goal.x && goal.y) {
       const Vec2 position{*goal.x, *goal.y};
       const Vec2 p_OF = -rotated(-theta, position);
-      return depth_inside(model.outline, p_OF) < -slack - half_step * position.norm();
+      return depth_inside(model.pad_face, p_OF) < -slack - half_step * position.norm();
     }
     const double room = slack + half_step * reach;
-    return (goal.x && coordinate_is_off(model.outline, theta, true, *goal.x, room)) ||
-           (goal.y && coordinate_is_off(model.outline, theta, false, *goal.y, room));
+    return (goal.x && coordinate_is_off(model.pad_face, theta, true, *goal.x, room)) ||
+           (goal.y && coordinate_is_off(model.pad_face, theta, false, *goal.y, room));
   });
   return off || refuse(why, "a pose of the goal has the finger axis on the object");
 }

@@ -102,7 +102,7 @@ bool is_isotropic_along(const SearchModel& search, const FlatState& from,
   const Model& model = *search.model;
   const auto* disc = std::get_if<DiscPad>(&model.scene.gripper.pad);
   if (!model.region.is_isotropic() || !disc) return false;
-  return distance_to_border(model.outline, from.p_OF, to.p_OF) >= disc->radius;
+  return distance_to_border(model.pad_face, from.p_OF, to.p_OF) >= disc->radius;
 }
 
 /// How many points of a move are looked at.
@@ -174,7 +174,7 @@ LinearPush push_of(const SearchModel& search, const Move& move) noexcept {
 bool move_sticks(const SearchModel& search, int contact, const FlatState& from,
                  const FlatState& to, Work& work) noexcept {
   return passes_closed_form(search, contact, from, to, work) &&
-         segment_inside(search.model->outline, from.p_OF, to.p_OF) &&
+         segment_inside(search.model->pad_face, from.p_OF, to.p_OF) &&
          passes_pad_check(search, contact, from, to, work);
 }
 
@@ -186,7 +186,7 @@ std::optional<Move> direct_move(const SearchModel& search, const FlatState& from
     const int contact = i < 0 ? preferred : i;
     if (contact < 0 || (i >= 0 && contact == preferred)) continue;
     if (!passes_closed_form(search, contact, from, to, work)) continue;
-    on_object = on_object || segment_inside(search.model->outline, from.p_OF, to.p_OF);
+    on_object = on_object || segment_inside(search.model->pad_face, from.p_OF, to.p_OF);
     if (!on_object) return std::nullopt;
     if (passes_pad_check(search, contact, from, to, work)) return Move{contact, from, to};
   }
@@ -207,7 +207,7 @@ double move_slack(const SearchModel& search, const Move& move, int points,
 
 bool segment_on_object(const Model& model, const Vec2& from_p_OF,
                        const Vec2& to_p_OF) noexcept {
-  return segment_inside(model.outline, from_p_OF, to_p_OF);
+  return segment_inside(model.pad_face, from_p_OF, to_p_OF);
 }
 
 }  // namespace prehensile

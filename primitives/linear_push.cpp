@@ -198,7 +198,7 @@ bool PushRun::can_leap() const {
     const double s = s_ + (1.0 - s_) * i / checks;
     const PlanarPose X_HO = instant_.pose(seat_, s, q_);
     if (!model_.region.is_whole(X_HO)) return false;
-    if (depth_inside(model_.outline, finger_in_object(X_HO)) < 0.0) return false;
+    if (depth_inside(model_.pad_face, finger_in_object(X_HO)) < 0.0) return false;
   }
   return true;
 }

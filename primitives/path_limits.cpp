@@ -22,7 +22,7 @@ PathLimits::Values PathLimits::at(const SeatGeometry& geometry, const Seat& seat
   const double drifted = (p_OF - p_OF_start_).norm();
   const double turned = std::abs(X_HO.theta - theta_start_);
   return {geometry.room(seat, q[0]),
-          depth_inside(model_->outline, p_OF),
+          depth_inside(model_->pad_face, p_OF),
           std::min(reach_ * (guard_.angle - turned), guard_.distance - drifted),
           geometry.clearance(seat, {q[0], open_tilt}),
           seat.side == 0 ? std::numeric_limits<double>::infinity()

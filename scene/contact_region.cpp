@@ -55,7 +55,7 @@ ContactRegion::ContactRegion(const Scene& scene, int points)
     : pad_(in_plane_equivalent(scene.gripper.pad)),
       density_(std::make_shared<const PadDensity>(pad_, scene.gripper.pressure)),
       whole_(pad_points(pad_, scene.gripper.pressure, points)),
-      outline_(outline_of(scene.object.shape)),
+      outline_(pad_face_of(scene.object.shape)),
       points_(points) {
   const bool is_point = std::holds_alternative<PointPad>(scene.gripper.pad);
   round_side_ = can_roll(scene.object);

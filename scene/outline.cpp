@@ -44,6 +44,8 @@ struct OutlineOf {
     return round_outline(cylinder.radius);
   }
   std::vector<Vec2> operator()(const PrismShape& prism) const { return prism.outline; }
+  std::vector<Vec2> operator()(const SolidShape& solid) const { return solid.outline; }
+  std::vector<Vec2> operator()(const MeshShape&) const { return {}; }
 };
 
 double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
@@ -85,6 +87,8 @@ struct HalfThickness {
     return cylinder.axis == Axis::kZ ? 0.5 * cylinder.length : cylinder.radius;
   }
   double operator()(const PrismShape& prism) const { return 0.5 * prism.thickness; }
+  double operator()(const SolidShape& solid) const { return 0.5 * solid.thickness; }
+  double operator()(const MeshShape&) const { return 0.0; }
 };
 
 }  // namespace
@@ -93,11 +97,18 @@ std::vector<Vec2> outline_of(const Shape& shape) {
   return std::visit(OutlineOf{}, shape);
 }
 
+std::vector<Vec2> pad_face_of(const Shape& shape) {
+  const auto* solid = std::get_if<SolidShape>(&shape);
+  return solid ? solid->pad_face : outline_of(shape);
+}
+
 std::vector<Face> faces_of(const Shape& shape) {
   const auto* cylinder = std::get_if<CylinderShape>(&shape);
   if (cylinder && cylinder->axis == Axis::kZ) return {};
   const std::vector<Vec2> outline = outline_of(shape);
   const double tolerance = kParallel * longer_side(outline);
+  const auto* solid = std::get_if<SolidShape>(&shape);
+  const double half = half_thickness(shape);
   std::vector<Face> faces;
   for (std::size_t i = 0; i < outline.size(); ++i) {
     Face face;
@@ -109,6 +120,8 @@ std::vector<Face> faces_of(const Shape& shape) {
       return face.n.dot(v - face.a) >= -tolerance;
     });
     if (face.on_hull) face.name = side_name(face.n);
+    face.z_low = solid ? solid->heights[i].x() : -half;
+    face.z_high = solid ? solid->heights[i].y() : half;
     faces.push_back(face);
   }
   for (std::size_t i = 0; i < faces.size(); ++i) {
@@ -209,8 +222,21 @@ double longer_side(const std::vector<Vec2>& outline) {
 
 double half_thickness(const Shape& shape) { return std::visit(HalfThickness{}, shape); }
 
+double reach_along_z(const Shape& shape) {
+  double reach = half_thickness(shape);
+  if (const auto* solid = std::get_if<SolidShape>(&shape)) {
+    for (const Vec2& heights : solid->heights) {
+      reach = std::max({reach, -heights.x(), heights.y()});
+    }
+  }
+  return reach;
+}
+
 Vec2 centre_of_mass(const Object& object) {
   if (object.p_OCom) return *object.p_OCom;
+  if (const auto* solid = std::get_if<SolidShape>(&object.shape)) {
+    return solid->centroid.head<2>();
+  }
   return properties_of(outline_of(object.shape)).centroid;
 }
 
@@ -222,29 +248,43 @@ Eigen::Matrix3d gyration(const Eigen::Matrix3d& spread) {
   return spread.trace() * Eigen::Matrix3d::Identity() - spread;
 }
 
-/// Second moments of a homogeneous body about its centroid, per unit of mass [m^2].
-Eigen::Matrix3d spread_of(const Shape& shape, const OutlineProperties& outline) {
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  if (const auto* cylinder = std::get_if<CylinderShape>(&shape)) {
-    spread.diagonal().setConstant(0.25 * cylinder->radius * cylinder->radius);
-    spread.diagonal()[static_cast<int>(cylinder->axis)] =
-        cylinder->length * cylinder->length / 12.0;
-    return spread;
+/// Centroid of a homogeneous body, and its second moments about it per unit of mass.
+struct Homogeneous {
+  Vec3 centroid = Vec3::Zero();                      // [m]
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();  // [m^2]
+};
+
+Homogeneous homogeneous(const Shape& shape) {
+  Homogeneous body;
+  if (const auto* solid = std::get_if<SolidShape>(&shape)) {
+    return {solid->centroid, solid->spread};
   }
+  if (const auto* cylinder = std::get_if<CylinderShape>(&shape)) {
+    body.spread.diagonal().setConstant(0.25 * cylinder->radius * cylinder->radius);
+    body.spread.diagonal()[static_cast<int>(cylinder->axis)] =
+        cylinder->length * cylinder->length / 12.0;
+    return body;
+  }
+  const OutlineProperties outline = properties_of(outline_of(shape));
   const double half = half_thickness(shape);
-  spread.topLeftCorner<2, 2>() = outline.second / outline.area;
-  spread(2, 2) = half * half / 3.0;
-  return spread;
+  body.centroid.head<2>() = outline.centroid;
+  body.spread.topLeftCorner<2, 2>() = outline.second / outline.area;
+  body.spread(2, 2) = half * half / 3.0;
+  return body;
 }
 
 }  // namespace
 
+double height_of_mass(const Object& object) {
+  return object.p_OCom ? object.z_OCom : homogeneous(object.shape).centroid.z();
+}
+
 Eigen::Matrix3d inertia_of(const Object& object) {
-  const OutlineProperties outline = properties_of(outline_of(object.shape));
-  const Vec2 in_plane = centre_of_mass(object) - outline.centroid;
-  const Vec3 shift(in_plane.x(), in_plane.y(), object.z_OCom);
-  Eigen::Matrix3d inertia = object.mass * gyration(spread_of(object.shape, outline) +
-                                                   shift * shift.transpose());
+  const Homogeneous body = homogeneous(object.shape);
+  const Vec2 p_OCom = centre_of_mass(object);
+  const Vec3 shift = Vec3(p_OCom.x(), p_OCom.y(), height_of_mass(object)) - body.centroid;
+  Eigen::Matrix3d inertia =
+      object.mass * gyration(body.spread + shift * shift.transpose());
   if (object.inertia) inertia(2, 2) = *object.inertia;
   return inertia;
 }

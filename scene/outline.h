@@ -18,6 +18,8 @@ struct Face {
   Vec2 n, t;
   bool on_hull =
       true;  ///< false: in a notch, a wall longer than the notch cannot reach it
+  double z_low = 0.0;  ///< [m] extent along z of O of the body's side there
+  double z_high = 0.0;
 
   double length() const { return (b - a).norm(); }
   Vec2 centre() const { return 0.5 * (a + b); }
@@ -34,6 +36,9 @@ struct OutlineProperties {
 /// Counter-clockwise outline in O [m]. A cylinder held at its flat ends gives the regular
 /// polygon of 64 edges with the area of its circle.
 std::vector<Vec2> outline_of(const Shape& shape);
+
+/// The part of the outline where both pads find a flat face.
+std::vector<Vec2> pad_face_of(const Shape& shape);
 
 /// Flush faces; empty for a cylinder held at its flat ends, whose rim is round.
 std::vector<Face> faces_of(const Shape& shape);
@@ -61,11 +66,18 @@ bool is_simple(const std::vector<Vec2>& outline);
 /// Longer side of the object in the pad plane: L of the plan cost [m].
 double longer_side(const std::vector<Vec2>& outline);
 
+/// How far the object reaches from its mid-plane along z [m]; more than half_thickness
+/// for a solid with parts beside the faces that the jaws hold.
+double reach_along_z(const Shape& shape);
+
 /// Half of the object's size between the jaws [m]: the pads touch at z = -/+ this.
 double half_thickness(const Shape& shape);
 
 /// Centre of mass in O: as given, or of the homogeneous shape [m].
 Vec2 centre_of_mass(const Object& object);
+
+/// Height of the centre of mass above the mid-plane, along z of O [m].
+double height_of_mass(const Object& object);
 
 /// Inertia about the centre of mass, in O [kg m^2]: of the homogeneous shape, but its
 /// moment about z as given.

@@ -6,6 +6,8 @@
 #include <limits>
 #include <set>
 
+#include <Eigen/Cholesky>
+
 #include "scene/contact_region.h"
 #include "scene/outline.h"
 
@@ -62,8 +64,8 @@ class Checker {
   std::vector<Fault> faults_;
 };
 
-void check_outline(Checker& checker, const std::vector<Vec2>& outline) {
-  const std::string field = "object.prism.outline";
+void check_outline(Checker& checker, const std::string& field,
+                   const std::vector<Vec2>& outline) {
   if (outline.size() < 3 || outline.size() > kMostVertices) {
     checker.fault(field, std::to_string(outline.size()) + " vertices: expected 3 to " +
                              std::to_string(kMostVertices));
@@ -85,6 +87,37 @@ void check_outline(Checker& checker, const std::vector<Vec2>& outline) {
   }
 }
 
+void check_solid(Checker& checker, const SolidShape& solid) {
+  const std::string field = "object.solid";
+  checker.length(field + ".thickness", solid.thickness);
+  check_outline(checker, field + ".outline", solid.outline);
+  check_outline(checker, field + ".pad_face", solid.pad_face);
+  if (solid.heights.size() != solid.outline.size()) {
+    checker.fault(field + ".heights", std::to_string(solid.heights.size()) +
+                                          " members: expected one for " + "each of the " +
+                                          std::to_string(solid.outline.size()) +
+                                          " edges of the outline");
+  }
+  for (const Vec2& heights : solid.heights) {
+    checker.place(field + ".heights", heights);
+    if (!(heights.x() <= heights.y())) {
+      checker.fault(field + ".heights",
+                    text(heights) + ": expected the lower end, then the higher one");
+    }
+  }
+  for (int i = 0; i < 3; ++i) {
+    checker.in_range(field + ".centroid", solid.centroid[i], -kLongest, kLongest, "m");
+  }
+  const bool is_spread = solid.spread.allFinite() &&
+                         solid.spread.isApprox(solid.spread.transpose(), 1e-9) &&
+                         solid.spread.llt().info() == Eigen::Success;
+  if (!is_spread) {
+    checker.fault(field + ".spread",
+                  "not the second moments of a body: expected a symmetric positive "
+                  "matrix");
+  }
+}
+
 void check_object(Checker& checker, const Object& object) {
   if (const auto* box = std::get_if<BoxShape>(&object.shape)) {
     for (int i = 0; i < 3; ++i) checker.length("object.box.size", box->size[i]);
@@ -93,7 +126,12 @@ void check_object(Checker& checker, const Object& object) {
     checker.length("object.cylinder.length", cylinder->length);
   } else if (const auto* prism = std::get_if<PrismShape>(&object.shape)) {
     checker.length("object.prism.thickness", prism->thickness);
-    check_outline(checker, prism->outline);
+    check_outline(checker, "object.prism.outline", prism->outline);
+  } else if (const auto* solid = std::get_if<SolidShape>(&object.shape)) {
+    check_solid(checker, *solid);
+  } else {
+    checker.fault("object.mesh",
+                  "not loaded: expected a scene that was read from a file");
   }
   checker.in_range("object.mass", object.mass, 1e-9, 1e4, "kg");
   if (object.inertia) {
@@ -101,8 +139,8 @@ void check_object(Checker& checker, const Object& object) {
   }
   if (object.p_OCom) checker.place("object.centre_of_mass", *object.p_OCom);
   if (checker.clean()) {
-    const double half = half_thickness(object.shape);
-    checker.in_range("object.centre_of_mass.2", object.z_OCom, -half, half, "m");
+    const double most = reach_along_z(object.shape);
+    checker.in_range("object.centre_of_mass.2", object.z_OCom, -most, most, "m");
     if (object.z_OCom != 0.0 && !object.p_OCom) {
       checker.fault("object.centre_of_mass",
                     "only its height is given: expected all its coordinates");
@@ -216,8 +254,8 @@ void check_feature(Checker& checker, const std::string& path,
 }
 
 void check_height(Checker& checker, const std::string& path, const Pusher& pusher,
-                  double half_thickness) {
-  const double most = half_thickness + 0.5 * width_across_plane(pusher.feature);
+                  double reach) {
+  const double most = reach + 0.5 * width_across_plane(pusher.feature);
   if (!std::isfinite(pusher.z_WP) || std::abs(pusher.z_WP) <= most) return;
   checker.fault(path + ".position.2",
                 text(pusher.z_WP) +
@@ -252,7 +290,7 @@ void check_pushers(Checker& checker, const Scene& scene) {
     check_feature(checker, path, pusher.feature);
     if (shape_is_sound) {
       check_faces(checker, path, pusher, faces);
-      check_height(checker, path, pusher, half_thickness(scene.object.shape));
+      check_height(checker, path, pusher, reach_along_z(scene.object.shape));
     }
   }
 }
@@ -294,10 +332,10 @@ void check_goal(Checker& checker, const Goal& goal, bool rolls) {
 }
 
 void check_start_is_held(Checker& checker, const Scene& scene) {
-  const std::vector<Vec2> outline = outline_of(scene.object.shape);
+  const std::vector<Vec2> face = pad_face_of(scene.object.shape);
   const Vec2 p_OF = finger_in_object(scene.start.X_HO);
   const bool on_face =
-      contains(outline, p_OF) && ContactRegion(scene, 16).at(scene.start.X_HO).count > 0;
+      contains(face, p_OF) && ContactRegion(scene, 16).at(scene.start.X_HO).count > 0;
   if (!on_face) {
     checker.fault("start", "the finger axis is at " + text(p_OF) +
                                " in the object: expected the pads on the object");

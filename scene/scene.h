@@ -36,7 +36,34 @@ struct PrismShape {
   double thickness = 0.0;     ///< [m] along z, between the jaws
 };
 
-using Shape = std::variant<BoxShape, CylinderShape, PrismShape>;
+/// A solid body of any form, held at two flat faces that look away from each other; made
+/// from a mesh (mesh/face_pairs.h). The mid-plane between the faces is z = 0 in O.
+struct SolidShape {
+  std::vector<Vec2> outline;   ///< [m] silhouette along z, simple, counter-clockwise
+  std::vector<Vec2> pad_face;  ///< [m] where both pads find a flat face, likewise
+  /// [m] lowest and highest point of the body's side at each edge of the outline, from
+  /// vertex i to i + 1; both outside +/- thickness / 2 where the body is higher there.
+  std::vector<Vec2> heights;
+  double thickness = 0.0;                            ///< [m] between the two faces
+  Vec3 centroid = Vec3::Zero();                      ///< [m] in O
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();  ///< [m^2] mean of r r^T over the
+                                                     ///< homogeneous body, r from its
+                                                     ///< centroid
+};
+
+/// A mesh file that is not loaded yet: reading a scene file puts a SolidShape in its
+/// place; `check` refuses it.
+struct MeshShape {
+  std::string file;            ///< STL or OBJ, in the folder of the scene or below
+  double unit = 1.0;           ///< [m] that 1 stands for: 0.001 for a file in millimetres
+  std::string pair = "pair0";  ///< faces that the jaws hold, see `prehensile mesh`
+  std::optional<Vec3> closing;  ///< or: the pair with the nearest closing direction in
+                                ///< the frame of the file,
+  std::optional<Vec3>
+      near_point;  ///< [m] and of these the one that is nearest to a point
+};
+
+using Shape = std::variant<BoxShape, CylinderShape, PrismShape, SolidShape, MeshShape>;
 
 struct Object {
   Shape shape;

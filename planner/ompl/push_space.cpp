@@ -29,7 +29,7 @@ ob::RealVectorBounds bounds_of(const PushSteps& steps, const Grasp& start) {
   ob::RealVectorBounds bounds(dimensions);
   for (unsigned axis = 0; axis < 2; ++axis) {
     const auto [low, high] = std::ranges::minmax(
-        steps.model().outline, {}, [axis](const Vec2& corner) { return corner[axis]; });
+        steps.model().pad_face, {}, [axis](const Vec2& corner) { return corner[axis]; });
     bounds.setLow(axis, low[axis]);
     bounds.setHigh(axis, high[axis]);
   }

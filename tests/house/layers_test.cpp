@@ -26,9 +26,11 @@ const std::map<std::string, std::set<std::string>> kLeftOf = {
     {"planner", {"scene", "optimisation", "mechanics", "primitives", "planner"}},
     {"problems",
      {"scene", "optimisation", "mechanics", "primitives", "planner", "problems"}},
-    {"io", {"scene", "optimisation", "mechanics", "primitives", "planner", "io"}},
+    {"mesh", {"scene", "mesh"}},
+    {"io", {"scene", "optimisation", "mechanics", "primitives", "planner", "mesh", "io"}},
     {"apps",
-     {"scene", "optimisation", "mechanics", "primitives", "planner", "io", "apps"}},
+     {"scene", "optimisation", "mechanics", "primitives", "planner", "mesh", "io",
+      "apps"}},
 };
 
 /// Where a third party, or a part of the standard library, may be named.
@@ -49,8 +51,11 @@ std::vector<Room> rooms() {
       room("^yaml-cpp/", "^io/.*"),
       room("^nlohmann/", "^(io|apps)/.*"),
       room("^CLI/", "^apps/.*"),
+      room("^assimp/", "^mesh/import\\.cpp$"),
+      room("^polyclipping/", "^mesh/plane_regions\\.cpp$"),
+      room("^tinyxml2\\.h$", "^mesh/urdf\\.cpp$"),
       room("^zlib\\.h$", "^io/gzip\\.cpp$"),
-      room("^(iostream|fstream)$", "^(io|apps)/.*"),
+      room("^(iostream|fstream)$", "^(mesh|io|apps)/.*"),
       room("^random$", "^$"),
       room("^chrono$", "^(planner|apps)/.*"),
       room("^thread$", "^$"),

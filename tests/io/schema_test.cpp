@@ -117,6 +117,13 @@ std::string scene_around(const std::string& path) {
   if (path.find("prism") != std::string::npos) {
     shape = "prism: {outline: [[-1, -1], [1, -1], [0, 1]], thickness: 0.1}";
   }
+  if (path.find("solid") != std::string::npos) {
+    shape =
+        "solid: {outline: [[-1, -1], [1, -1], [0, 1]], "
+        "pad_face: [[-1, -1], [1, -1], [0, 1]], "
+        "heights: [[-1, 1], [-1, 1], [-1, 1]], thickness: 0.1, "
+        "centroid: [0, 0, 0], spread: [0.1, 0.1, 0.1, 0, 0, 0]}";
+  }
   std::string pad = "disc: {radius: 0.01}";
   if (path.find("pad.line") != std::string::npos) pad = "line: {length: 0.01}";
   if (path.find("pad.point") != std::string::npos) pad = "point: {}";

@@ -106,7 +106,7 @@ class Layout {
           has_map_ ? colour_bar_width(frame_, *chart_.map, map_colours_) : 0.0;
       frame_.width = std::max(40.0, width_ - frame_.left - kMargin - 8.0 - bar);
       if (chart_.equal_scales) equalise();
-      ticks_y_ = ticks_of(frame_.y, std::max(2, static_cast<int>(frame_.height / 55.0)));
+      ticks_y_ = ticks_of(frame_.y, std::max(2, static_cast<int>(frame_.height / 45.0)));
       double widest = 0.0;
       for (const Tick& tick : ticks_y_.ticks) {
         widest = std::max(widest, text_width(tick.label, kTickFont));

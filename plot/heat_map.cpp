@@ -73,6 +73,7 @@ void draw(Drawing& drawing, const Frame& frame, const HeatMap& map, const Range&
   if (!all_drawable(map.x, frame.x.scale) || !all_drawable(map.y, frame.y.scale)) return;
   const std::vector<double> xs = borders(map.x, frame.x.scale);
   const std::vector<double> ys = borders(map.y, frame.y.scale);
+  drawing.raw("<g shape-rendering=\"crispEdges\">\n");
   for (std::size_t j = 0; j < map.y.size(); ++j) {
     for (std::size_t i = 0; i < map.x.size(); ++i) {
       const double value = map.values[j * map.x.size() + i];
@@ -86,6 +87,7 @@ void draw(Drawing& drawing, const Frame& frame, const HeatMap& map, const Range&
                         frame.px_y(ys[j]) - top + (shown ? 0.4 : 0.0), fill, {});
     }
   }
+  drawing.raw("</g>\n");
 }
 
 double colour_bar_width(const Frame& frame, const HeatMap& map, const Range& colours) {
@@ -101,10 +103,12 @@ void draw_colour_bar(Drawing& drawing, const Frame& frame, const HeatMap& map,
   constexpr int kShades = 64;
   const double left = frame.left + frame.width + kBarGap;
   const double step = frame.height / kShades;
+  drawing.raw("<g shape-rendering=\"crispEdges\">\n");
   for (int k = 0; k < kShades; ++k) {
     drawing.rectangle(left, frame.top + (kShades - 1 - k) * step, kBarWidth, step + 0.4,
                       map_colour((k + 0.5) / kShades), {});
   }
+  drawing.raw("</g>\n");
   const Drawing::Stroke edge{.colour = "#444444", .width = 1.0};
   drawing.rectangle(left, frame.top, kBarWidth, frame.height, "none", edge);
   const Ticks ticks = ticks_of(colours, bar_ticks(frame));

@@ -30,6 +30,7 @@ Command add_check(CLI::App& app);
 Command add_query_instant(CLI::App& query);
 Command add_query_push(CLI::App& query);
 Command add_query_sweep(CLI::App& query);
+Command add_query_cone(CLI::App& query);
 Command add_inspect(CLI::App& app);
 
 }  // namespace prehensile::apps

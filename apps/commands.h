@@ -33,6 +33,7 @@ Command add_query_sweep(CLI::App& query);
 Command add_query_cone(CLI::App& query);
 Command add_query_spread(CLI::App& query);
 Command add_query_contact(CLI::App& query);
+Command add_query_place(CLI::App& query);
 Command add_inspect(CLI::App& app);
 
 }  // namespace prehensile::apps

@@ -43,6 +43,7 @@ int run(int argc, char** argv) {
   const Command cone = add_query_cone(query);
   const Command spread = add_query_spread(query);
   const Command contact = add_query_contact(query);
+  const Command place = add_query_place(query);
   const Command inspect = add_inspect(app);
   const std::vector<std::pair<const CLI::App*, Command>> commands = {
       {app.get_subcommand("plan"), plan},
@@ -53,6 +54,7 @@ int run(int argc, char** argv) {
       {query.get_subcommand("cone"), cone},
       {query.get_subcommand("spread"), spread},
       {query.get_subcommand("contact"), contact},
+      {query.get_subcommand("place"), place},
       {app.get_subcommand("inspect"), inspect}};
   try {
     app.parse(argc, argv);

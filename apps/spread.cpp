@@ -59,8 +59,13 @@ Ensemble run_ensemble(const Model& model, const Grasp& start, const Push& push,
   const TransitionOptions how{.tolerance = options.tolerance};
   out.nominal = apply(model, start, push, how);
   const Vec2 n = rotated(start.X_HO.theta, model.contacts[contact_of(push)].n);
+  // A roll turns the object about its own axis.
+  const bool rolls = std::holds_alternative<Roll>(push);
+  const auto turned = [rolls](const Grasp& from, const Grasp& to) {
+    return rolls ? to.psi - from.psi : to.X_HO.theta - from.X_HO.theta;
+  };
   const PlanarPose moved = motion_of(start.X_HO, out.nominal.end.X_HO, start.X_HO);
-  out.nominal_motion = deviation(n, translation(moved), moved.theta);
+  out.nominal_motion = deviation(n, translation(moved), turned(start, out.nominal.end));
   out.members.resize(static_cast<std::size_t>(options.samples));
   for_each_index(options.samples, options.jobs, [&](int i) {
     EnsembleMember& member = out.members[static_cast<std::size_t>(i)];
@@ -76,10 +81,10 @@ Ensemble run_ensemble(const Model& model, const Grasp& start, const Push& push,
     const PlanarPose& X_HO = end.end.X_HO;
     const PlanarPose& nominal = out.nominal.end.X_HO;
     member.end = deviation(n, translation(X_HO) - translation(nominal),
-                           X_HO.theta - nominal.theta);
+                           turned(out.nominal.end, end.end));
     const PlanarPose motion = motion_of(varied.start.X_HO, X_HO, start.X_HO);
     member.motion = deviation(n, translation(motion) - translation(moved),
-                              motion.theta - moved.theta);
+                              turned(varied.start, end.end) - out.nominal_motion.angle);
   });
   return out;
 }

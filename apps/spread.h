@@ -11,7 +11,7 @@
 namespace prehensile::apps {
 
 /// A planar motion against the nominal one: along the normal and the tangent of the face
-/// at the start, and turned.
+/// at the start, and turned; about the object's own axis where the push is a roll.
 struct Deviation {
   double normal = kNan;      ///< [m]
   double tangential = kNan;  ///< [m]

@@ -102,12 +102,21 @@ std::string mark_path(Mark mark, double x, double y, double r) {
   return "";
 }
 
+double size_of(double size) {
+  return std::clamp(std::isfinite(size) ? size : 3.0, 0.5, 20.0);
+}
+
+void draw_marks(Drawing& drawing, Mark mark, const std::string& data,
+                const std::string& colour) {
+  if (data.empty()) return;
+  const bool open = mark == Mark::kCross;
+  drawing.path(data, open ? "none" : colour, 0.75,
+               {.colour = open ? colour : "none", .width = 1.5});
+}
+
 void draw_mark(Drawing& drawing, Mark mark, double x, double y, double size,
                const std::string& colour) {
-  const double r = std::clamp(std::isfinite(size) ? size : 3.0, 0.5, 20.0);
-  const bool open = mark == Mark::kCross;
-  drawing.path(mark_path(mark, x, y, r), open ? "none" : colour, 0.75,
-               {.colour = open ? colour : "none", .width = 1.5});
+  draw_marks(drawing, mark, mark_path(mark, x, y, size_of(size)), colour);
 }
 
 void draw_path(Drawing& drawing, const std::string& data, const std::string& colour,
@@ -190,10 +199,14 @@ void draw(Drawing& drawing, const Frame& frame, const Series& series, Colour col
             draw_path(drawing, staircase(frame, s.points), paint, s.dash);
           },
           [&](const Scatter& s) {
+            // One path for all marks: a large cloud stays a small file.
+            std::string marks;
             for (const Point& p : s.points) {
               if (!frame.drawable(p)) continue;
-              draw_mark(drawing, s.mark, frame.px_x(p.x), frame.px_y(p.y), s.size, paint);
+              marks +=
+                  mark_path(s.mark, frame.px_x(p.x), frame.px_y(p.y), size_of(s.size));
             }
+            draw_marks(drawing, s.mark, marks, paint);
           },
           [&](const Band& s) {
             const std::string outline = band_outline(frame, s.rows);

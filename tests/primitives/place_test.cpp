@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "mechanics/planar_instant.h"
-#include "optimisation/nonlinear_program.h"
 #include "problems/random_pushes.h"
 #include "problems/random_stream.h"
 
@@ -105,8 +104,6 @@ TEST(Place, FullThousandWishes) {
   RecordProperty("found", count.found);
   RecordProperty("impossible", count.impossible);
   RecordProperty("not_found", count.not_found);
-  std::printf("found %d, impossible %d, not found %d\n", count.found, count.impossible,
-              count.not_found);
 }
 
 TEST(Place, WhatAPusherDoesCanBeWished) {

@@ -44,14 +44,6 @@ struct Options {
   }
 };
 
-Solver solver_called(const std::string& word) {
-  for (const Solver solver : built_solvers()) {
-    if (name(solver) == word) return solver;
-  }
-  if (word == name(Solver::kChoose)) return Solver::kChoose;
-  throw BadInput("--solver " + word + ": not part of this build");
-}
-
 template <typename Report>
 int print(const Report& report, bool json) {
   if (json) {
@@ -267,14 +259,7 @@ Command add_query_instant(CLI::App& query) {
       .add_option("--acceleration", options->acceleration,
                   "[m/s^2] of the pusher from rest, instead of the quasi-static limit")
       ->check(CLI::Range(0.0, 1e6));
-  command
-      .add_option("--solver", options->solver,
-                  "auto: the exact one that the question needs; exact and closed (limit "
-                  "surface): in the pad plane; ipopt: the paper's formulation there; "
-                  "spatial; pivoting and spatial-ipopt: polyhedral cones in space")
-      ->check(CLI::IsMember(
-          {"auto", "exact", "closed", "ipopt", "spatial", "pivoting", "spatial-ipopt"}))
-      ->capture_default_str();
+  add_solver_option(command, options->solver);
   command
       .add_option("--generators", options->generators,
                   "friction generators g of polyhedral cones")

@@ -66,12 +66,12 @@ std::vector<FlatFace> flat_faces(const TriangleMesh& mesh, double least) {
   const double same_plane = kSamePlane * size_of(mesh);
   std::vector<FlatFace> faces;
   for (const Part& part : parts) {
-    const auto [a, b, c] = corners(mesh, part.triangle);
+    const std::array<Vec3, 3> corner = corners(mesh, part.triangle);
     const auto contains_it = [&](const FlatFace& face) {
-      if (face.normal.dot(part.normal) < kParallel) return false;
-      return std::max({std::abs(face.normal.dot(a) - face.offset),
-                       std::abs(face.normal.dot(b) - face.offset),
-                       std::abs(face.normal.dot(c) - face.offset)}) <= same_plane;
+      return face.normal.dot(part.normal) >= kParallel &&
+             std::all_of(corner.begin(), corner.end(), [&](const Vec3& p) {
+               return std::abs(face.normal.dot(p) - face.offset) <= same_plane;
+             });
     };
     auto face = std::find_if(faces.begin(), faces.end(), contains_it);
     if (face == faces.end()) {

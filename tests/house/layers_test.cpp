@@ -28,8 +28,9 @@ const std::map<std::string, std::set<std::string>> kLeftOf = {
      {"scene", "optimisation", "mechanics", "primitives", "planner", "problems"}},
     {"mesh", {"scene", "mesh"}},
     {"io", {"scene", "optimisation", "mechanics", "primitives", "planner", "mesh", "io"}},
+    {"plot", {"plot"}},
     {"apps",
-     {"scene", "optimisation", "mechanics", "primitives", "planner", "mesh", "io",
+     {"scene", "optimisation", "mechanics", "primitives", "planner", "mesh", "io", "plot",
       "apps"}},
 };
 
@@ -58,7 +59,7 @@ std::vector<Room> rooms() {
       room("^(iostream|fstream)$", "^(mesh|io|apps)/.*"),
       room("^random$", "^$"),
       room("^chrono$", "^(planner|apps)/.*"),
-      room("^thread$", "^$"),
+      room("^thread$", "^apps/.*"),
   };
 }
 

@@ -1,0 +1,105 @@
+/// Every query on every shipped scene: no crash, no number that is none, and a reason for
+/// each refusal.
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/apps/program.h"
+
+namespace prehensile::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+std::vector<std::string> shipped_scenes() {
+  const fs::path root = PREHENSILE_SOURCE_DIR;
+  std::vector<std::string> scenes;
+  for (const auto& entry : fs::recursive_directory_iterator(root / "problems")) {
+    if (entry.path().extension() != ".yaml") continue;
+    scenes.push_back(fs::relative(entry.path(), root).string());
+  }
+  std::sort(scenes.begin(), scenes.end());
+  return scenes;
+}
+
+/// SCENE stands for the scene's file.
+const std::vector<std::string>& queries() {
+  static const std::vector<std::string> kQueries = {
+      "instant SCENE",
+      "push SCENE --travel-mm 3",
+      "sweep SCENE --over gripper.grip_force=1:50:5",
+      "sweep SCENE --of push --over travel_mm=1,40 --over pushers.0.friction=0.1,0.9",
+      "sweep SCENE --of roll --over pushers.0.friction=0.1,0.9",
+      "cone SCENE --samples 8 --check 100",
+      "spread SCENE --travel-mm 3 --samples 12",
+      "contact SCENE --travel-mm 3 --samples 4",
+      "place SCENE --twist 3,2,5 --grip-force 5,60"};
+  return kQueries;
+}
+
+/// A status that is no success comes with words.
+void expect_reasons(const json& value, const std::string& query) {
+  if (value.is_object() && value.contains("answered") &&
+      !value.at("answered").get<bool>()) {
+    EXPECT_NE(value.at("reason"), "") << query << value.dump();
+    EXPECT_NE(value.at("status"), "") << query << value.dump();
+  }
+  if (!value.is_structured()) return;
+  for (const json& item : value) expect_reasons(item, query);
+}
+
+/// The reason of a negative answer, wherever the query keeps it.
+bool has_reason(const json& answer) {
+  for (const char* key : {"reason", "meaning"}) {
+    if (answer.contains(key) && answer.at(key) != "") return true;
+  }
+  if (answer.contains("nominal")) return answer.at("nominal").at("reason") != "";
+  // Rows and contacts say why themselves; an empty cone is its own reason.
+  return answer.contains("rows") || answer.contains("contacts") ||
+         answer.contains("slices");
+}
+
+void ask_all(const std::vector<std::string>& scenes) {
+  for (const std::string& scene : scenes) {
+    for (std::string query : queries()) {
+      query.replace(query.find("SCENE"), 5, scene);
+      const Outcome out = run_program("query " + query + " --json");
+      ASSERT_GE(out.exit_code, 0) << query << out.err;
+      ASSERT_LE(out.exit_code, 1) << query << out.err;
+      ASSERT_TRUE(json::accept(out.out)) << query << '\n' << out.out;
+      const json answer = json::parse(out.out);
+      expect_reasons(answer, query);
+      if (out.exit_code == 1) {
+        EXPECT_TRUE(has_reason(answer)) << query << '\n' << out.out;
+      }
+      const Outcome told = run_program("query " + query);
+      EXPECT_EQ(told.exit_code, out.exit_code) << query;
+      EXPECT_EQ(told.out.find("nan"), std::string::npos) << query << '\n' << told.out;
+    }
+  }
+}
+
+TEST(Scenes, AFewAnswerEveryQuery) {
+  std::vector<std::string> some;
+  const std::vector<std::string> all = shipped_scenes();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool family = all[i].find("published") != std::string::npos;
+    if (!family || i % 50 == 0) some.push_back(all[i]);
+  }
+  ASSERT_GE(some.size(), 10U);
+  ask_all(some);
+}
+
+TEST(Scenes, FullSetAnswersEveryQuery) {
+  const std::vector<std::string> all = shipped_scenes();
+  ASSERT_GE(all.size(), 110U);
+  ask_all(all);
+}
+
+}  // namespace
+}  // namespace prehensile::testing

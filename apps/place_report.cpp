@@ -102,11 +102,11 @@ std::vector<Curve> curves_of(const PlaceReport& report) {
   const WantedMotion& wanted = report.wanted;
   const double speed = wanted.velocity.norm();
   const Vec2 e = speed > 0.0 ? Vec2(wanted.velocity / speed) : Vec2(1.0, 0.0);
-  Model model = report.model;
+  Scene scene = report.model.scene;
   if (std::isfinite(report.answer.best.grip_force)) {
-    const double grip = report.answer.best.grip_force;
-    model.F *= grip / model.scene.gripper.grip_force;
+    scene.gripper.grip_force = report.answer.best.grip_force;
   }
+  const Model model = prepare(scene, report.model.options);
   for (const ContactVerdict& verdict : report.answer.verdicts) {
     if (!verdict.possible) continue;
     const PushContact& contact = model.contacts[verdict.contact];

@@ -66,8 +66,7 @@ std::vector<int> allowed_contacts(const Options& options, const Model& model) {
   }
   if (out.empty()) {
     // Says what exists.
-    chosen_contact(model, {.pusher = options.pusher.empty() ? "?" : options.pusher,
-                           .face = options.face});
+    chosen_contact(model, {.pusher = options.pusher, .face = options.face});
   }
   return out;
 }

@@ -279,6 +279,7 @@ void run_sweep(Sweep& sweep, const SceneFile& file, const SceneOptions& scene, i
   std::optional<Model> model;
   if (one_scene) model = prepare(file.scene, options);
   sweep.rows.assign(static_cast<std::size_t>(count), SweepRow{});
+  std::vector<std::string> faults(static_cast<std::size_t>(count));
   for_each_index(count, jobs, [&](int i) {
     SweepQuestion question = sweep.question;
     std::vector<std::string> overrides = scene.overrides;
@@ -302,14 +303,13 @@ void run_sweep(Sweep& sweep, const SceneFile& file, const SceneOptions& scene, i
                     question);
     } catch (const BadInput& bad) {
       row.status = "bad input";
-      row.reason = bad.what();
+      row.reason = faults[static_cast<std::size_t>(i)] = bad.what();
       row.values.assign(sweep_columns(question.of).size(), kNan);
     }
   });
-  const bool all_bad =
-      std::all_of(sweep.rows.begin(), sweep.rows.end(),
-                  [](const SweepRow& row) { return row.status == "bad input"; });
-  if (all_bad) throw BadInput(sweep.rows.front().reason);
+  const bool all_bad = std::none_of(faults.begin(), faults.end(),
+                                    [](const std::string& f) { return f.empty(); });
+  if (all_bad) throw BadInput(faults.front());
 }
 
 }  // namespace prehensile::apps

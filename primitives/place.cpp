@@ -37,7 +37,13 @@ struct Trial {
 class Search {
  public:
   Search(const Model& model, const WantedMotion& wanted, const PlaceOptions& options)
-      : model_(model), wanted_(wanted), options_(options) {}
+      : model_of_scene_(model),
+        model_(model),
+        grip_(grip_limits(model, options)),
+        F_low_(with_grip(model, grip_.low).F),
+        F_high_(with_grip(model, grip_.high).F),
+        wanted_(wanted),
+        options_(options) {}
 
   /// The best place on one contact within these grip forces.
   Trial best_on(const ContactVerdict& verdict, bool least_force) {
@@ -74,23 +80,23 @@ class Search {
     out.grip_force = trial.grip_force;
     out.slack = trial.slack;
     out.robust_slack = trial.robust_slack;
-    set_grip(trial.grip_force);
-    const PushContact& pusher = model_.contacts[contact];
-    const PlanarGrasp grasp = grasp_at(model_, wanted_.X_HO, pusher.g_O);
+    const Model model = with_grip(model_of_scene_, trial.grip_force);
+    const PushContact& pusher = model.contacts[contact];
+    const PlanarGrasp grasp = grasp_at(model, wanted_.X_HO, pusher.g_O);
     const PlanarDrive drive =
         drive_at(pusher, trial.place, wanted_.X_HO, wanted_.twist_HO());
     const PlanarInstant instant = solve_planar(grasp, drive);
     out.status = instant.status;
     out.push_force = instant.push_force;
     out.certificate = certify(grasp, drive, instant).worst;
-    const double c = std::max(model_.c, 1e-9);
+    const double c = std::max(model.c, 1e-9);
     const PlanarTwist difference = instant.V_HO - drive.V_HP;
     out.twist_error = std::hypot(difference[0], difference[1], c * difference[2]) /
                       std::hypot(drive.V_HP[0], drive.V_HP[1], c * drive.V_HP[2]);
     out.found = usable(out.status) && out.twist_error <= kPlaceTwistTolerance &&
                 out.certificate <= 1e-6;
     if (!wanted_.is_path) return out;
-    out.forward = apply(model_, {wanted_.X_HO, 0.0}, out.push);
+    out.forward = apply(model, {wanted_.X_HO, 0.0}, out.push);
     const PlanarPose end = pusher_pose(out.push, wanted_.X_HO, 1.0);
     const PlanarPose& got = out.forward.end.X_HO;
     out.end_distance = (translation(got) - translation(end)).norm();
@@ -104,9 +110,9 @@ class Search {
 
  private:
   void set_grip(double force) {
-    const auto& friction = model_.scene.gripper.friction;
-    model_.scene.gripper.grip_force = force;
-    model_.F = (friction[0] + friction[1]) * force;
+    const double range = grip_.high - grip_.low;
+    const double share = range > 0.0 ? (force - grip_.low) / range : 0.0;
+    model_.F = F_low_ + share * (F_high_ - F_low_);
   }
 
   Trial judge(double place, double grip) {
@@ -193,7 +199,10 @@ class Search {
                    {.tolerance = 1e-7, .max_evaluations = 80}, 0.1);
   }
 
-  Model model_;  // its grip force changes
+  const Model& model_of_scene_;
+  Model model_;  // its friction changes with the grip force
+  GripLimits grip_;
+  double F_low_, F_high_;
   const WantedMotion& wanted_;
   const PlaceOptions& options_;
   const PushContact* contact_ = nullptr;

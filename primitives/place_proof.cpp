@@ -53,17 +53,16 @@ GripRange allowed(double at_low, double at_high, double low, double high) {
 }  // namespace
 
 NeededWrench needed_wrench(const Model& model, const WantedMotion& wanted,
-                           const PushContact& contact, double grip_force) {
+                           const PushContact& contact) {
   NeededWrench out;
   const PlanarGrasp grasp = grasp_at(model, wanted.X_HO, contact.g_O);
-  const double scale = grip_force / model.scene.gripper.grip_force;
   const PlanarTwist V = wanted.twist_HO();
   const double still = 1e-12 * (V.head<2>().norm() + model.c * std::abs(V[2]));
   for (int j = 0; j < grasp.count; ++j) {
     const Vec2 p(grasp.x[j], grasp.y[j]);
     const Vec2 slip = point_velocity(V, p);
     const double speed = slip.norm();
-    const double bound = scale * grasp.bound[j];
+    const double bound = grasp.bound[j];
     if (speed > still) {
       out.w += wrench_of(p, bound / speed * slip);
     } else {
@@ -79,15 +78,17 @@ NeededWrench needed_wrench(const Model& model, const WantedMotion& wanted,
 std::vector<ContactVerdict> verdicts_of(const Model& model, const WantedMotion& wanted,
                                         const PlaceOptions& options) {
   std::vector<ContactVerdict> out;
+  const GripLimits grip = grip_limits(model, options);
+  const Model loosest = with_grip(model, grip.low);
+  const Model tightest = with_grip(model, grip.high);
   for (int i = 0; i < static_cast<int>(model.contacts.size()); ++i) {
     const bool listed = options.contacts.empty() ||
                         std::find(options.contacts.begin(), options.contacts.end(), i) !=
                             options.contacts.end();
     if (!listed) continue;
     const PushContact& contact = model.contacts[i];
-    const GripLimits grip = grip_limits(model, options);
-    const NeededWrench low = needed_wrench(model, wanted, contact, grip.low);
-    const NeededWrench high = needed_wrench(model, wanted, contact, grip.high);
+    const NeededWrench low = needed_wrench(loosest, wanted, contact);
+    const NeededWrench high = needed_wrench(tightest, wanted, contact);
     const double length = std::max(model.c, 1e-9);
     const std::array<PlanarTwist, 4> limits = limits_of(contact, wanted.X_HO, length);
     std::array<GripRange, 4> ranges;
@@ -148,7 +149,7 @@ bool proves(const Model& model, const WantedMotion& wanted, const PlaceOptions& 
   }
   const GripLimits grip = grip_limits(model, options);
   for (const double force : {grip.low, grip.high}) {
-    const NeededWrench needed = needed_wrench(model, wanted, contact, force);
+    const NeededWrench needed = needed_wrench(with_grip(model, force), wanted, contact);
     const double room =
         needed.unknown_force * point_velocity(y, needed.unknown_at).norm();
     if (!(y.dot(needed.w) + room < 0.0)) return false;
@@ -170,6 +171,13 @@ GripLimits grip_limits(const Model& model, const PlaceOptions& options) {
   const double own = model.scene.gripper.grip_force;
   if (options.grip_low == 0.0 && options.grip_high == 0.0) return {own, own};
   return {options.grip_low, options.grip_high};
+}
+
+Model with_grip(const Model& model, double grip_force) {
+  if (grip_force == model.scene.gripper.grip_force) return model;
+  Scene scene = model.scene;
+  scene.gripper.grip_force = grip_force;
+  return prepare(scene, model.options);
 }
 
 }  // namespace prehensile

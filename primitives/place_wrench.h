@@ -11,9 +11,9 @@ struct NeededWrench {
   Vec2 unknown_at = Vec2::Zero();
 };
 
-/// At the start of the motion, over the real pads at this grip force.
+/// At the start of the motion, over the real pads.
 NeededWrench needed_wrench(const Model& model, const WantedMotion& wanted,
-                           const PushContact& contact, double grip_force);
+                           const PushContact& contact);
 
 /// Some part of the face moves towards the object's inside: the pusher follows it.
 bool advances(const PushContact& contact, const WantedMotion& wanted);
@@ -22,5 +22,9 @@ struct GripLimits {
   double low, high;
 };
 GripLimits grip_limits(const Model& model, const PlaceOptions& options);
+
+/// The same scene with another grip force, of which the friction of the pads is an affine
+/// function.
+Model with_grip(const Model& model, double grip_force);
 
 }  // namespace prehensile

@@ -27,6 +27,10 @@ class PadFriction {
   /// `frame.length` > 0: for a pad that is one point, any length, with `is_point`.
   PadFriction(const PlanarGrasp& grasp, const Frame& frame, bool is_point) noexcept;
 
+  /// Points that rounding can hardly tell apart become one place, because a pivot between
+  /// them would be ill-conditioned. False if there are none. Takes the square of `count`.
+  bool merge_near_points() noexcept;
+
   int count() const { return count_; }
   bool is_point() const { return is_point_; }
   Vec2 at(int j) const { return {x_[j], y_[j]}; }

@@ -89,6 +89,10 @@ PlanarInstant solve_limit_surface(const LimitSurface& surface, const PlanarWrenc
     return answer;
   }
   const ScaledPush push = scaled(w_g, drive, Vec2::Zero(), surface.c, surface.F);
+  if (!is_within_range(push)) {
+    answer.status = InstantStatus::kBadInput;
+    return answer;
+  }
   report(push, judge_push(UnitSphere{}, push, nullptr, false), answer);
   return answer;
 }
@@ -133,6 +137,7 @@ double limit_surface_residual(const LimitSurface& surface, const PlanarWrench& w
     }
     return violation;
   }
+  const double unit = std::max(1.0, surface.load(w_g));  // of forces, over F
   double v0 = 0.0;
   double worst = 0.0;
   PlanarWrench push = PlanarWrench::Zero();
@@ -143,17 +148,19 @@ double limit_surface_residual(const LimitSurface& surface, const PlanarWrench& w
     const PusherPoint& point = answer.pusher[i];
     const Vec2 relative = point_velocity(answer.V_HO - drive.V_HP, drive.p_HC[i]);
     const Vec2 rate(drive.n_H.dot(relative), drive.t_H().dot(relative));
-    worst = worse(worst, contact_violation(point, drive.mu, rate, surface.F, v0));
+    worst = worse(worst, contact_violation(point, drive.mu, rate, unit * surface.F, v0));
     const Vec2 f = point.normal_force * drive.n_H + point.tangential_force * drive.t_H();
     push += wrench_of(drive.p_HC[i], f);
   }
-  worst = worse(worst, surface.load(push - answer.w_push));
-  worst = worse(worst, std::abs(answer.push_force - push.head<2>().norm()) / surface.F);
+  worst = worse(worst, surface.load(push - answer.w_push) / unit);
+  worst = worse(worst,
+                std::abs(answer.push_force - push.head<2>().norm()) / (unit * surface.F));
   const Vec3 scaled_twist(answer.V_HO[0], answer.V_HO[1], surface.c * answer.V_HO[2]);
   if (scaled_twist.norm() <= 1e-14 * v0) {
     return worse(worst, surface.load(w_g + push) - 1.0);
   }
-  return worse(worst, surface.load(w_g + push + surface.friction(answer.V_HO)));
+  const PlanarWrench imbalance = w_g + push + surface.friction(answer.V_HO);
+  return worse(worst, surface.load(imbalance) / unit);
 }
 
 }  // namespace prehensile

@@ -96,6 +96,7 @@ class PadFriction {
   RayExit exit_of_pads(const PlanarWrench& w, const PlanarWrench& e,
                        const PlanarTwist* guess) const noexcept;
   RayExit exit_of_point(const PlanarWrench& w, const PlanarWrench& e) const noexcept;
+  bool proves_held(const PlanarWrench& support, const PlanarWrench& w) const noexcept;
   bool clearly_holds(const PlanarWrench& w) const noexcept;
 
   int count_ = 0;

@@ -31,12 +31,6 @@ bool is_posed(const PlanarGrasp& grasp, const PlanarDrive& drive,
          grasp.inertia.allFinite();
 }
 
-/// Nothing is so large against the pads that its square would overflow.
-bool is_balanced(const ScaledPush& push) {
-  return std::isfinite(push.w_g.squaredNorm() + push.V.squaredNorm() +
-                       push.p[0].squaredNorm() + push.p[1].squaredNorm());
-}
-
 Problem pose(const PlanarGrasp& grasp, const PlanarDrive& drive,
              PadFriction::Frame frame) {
   const double distance = (drive.p_HC[0] - frame.centre).norm();
@@ -219,7 +213,7 @@ PlanarInstant solve_planar(const PlanarGrasp& grasp, const PlanarDrive& drive,
     return answer;
   }
   Problem problem = pose(grasp, drive, frame);
-  if (!is_balanced(problem.push)) {
+  if (!is_within_range(problem.push)) {
     answer.status = InstantStatus::kBadInput;
     return answer;
   }

@@ -29,7 +29,7 @@ namespace prehensile {
 /// Where the ray w + lambda e, lambda increasing, leaves S; u is the normal there, e.u >
 /// 0.
 struct RayExit {
-  bool hit = false;
+  bool hit = false;  ///< false: none, or not found; then u is where the search ended
   double lambda = 0.0;
   PlanarTwist u = PlanarTwist::Zero();
   Pivot pivot;

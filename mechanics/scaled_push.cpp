@@ -99,6 +99,12 @@ ScaledPush scaled(const PlanarWrench& w_g, const PlanarDrive& drive, const Vec2&
   return push;
 }
 
+bool is_within_range(const ScaledPush& push) noexcept {
+  double sum = push.w_g.squaredNorm() + push.V.squaredNorm();
+  for (int i = 0; i < push.count; ++i) sum += push.p[i].squaredNorm();
+  return std::isfinite(sum);
+}
+
 PlanarTwist twist_in_hand(const ScaledPush& push, const PlanarTwist& u) noexcept {
   const PlanarUnits& units = push.units;
   const double omega = u[2] * units.rate / units.length;

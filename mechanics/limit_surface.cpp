@@ -15,8 +15,8 @@ class UnitSphere {
   double dissipation(const PlanarTwist& u) const { return u.norm(); }
 
   PlanarWrench resistance(const PlanarTwist& u, const Pivot&) const {
-    const double norm = u.norm();
-    return norm > 0.0 ? PlanarWrench(u / norm) : PlanarWrench(PlanarWrench::Zero());
+    const double square = u.squaredNorm();
+    return (square > 0.0 ? 1.0 / std::sqrt(square) : 0.0) * u;
   }
 
   Pivot pivot_at(const PlanarTwist&) const { return {}; }
@@ -27,9 +27,8 @@ class UnitSphere {
   }
 
   bool holds(const PlanarWrench& w, PlanarTwist* unsupported) const {
-    const double load = w.norm();
-    if (load < 1.0) return true;
-    *unsupported = w / load;
+    if (w.squaredNorm() < 1.0) return true;
+    *unsupported = w.normalized();
     return false;
   }
 
@@ -44,14 +43,16 @@ class UnitSphere {
     return {true, lambda, w + lambda * e, {}};
   }
 
-  /// On u = (part of u0 at right angles to d) + r d/|d|, power is sqrt(q^2 + r^2) - k r.
+  /// On u = a + s d with a at right angles to d, power is sqrt(a^2 + s^2 d^2) - s w.d.
   LowestOnLine lowest(const PlanarTwist& u0, const PlanarTwist& d, const PlanarWrench& w,
                       const PlanarTwist*) const {
-    const PlanarTwist unit = d.normalized();
-    const double k = w.dot(unit);
-    if (!(std::abs(k) < 1.0)) return {};
-    const PlanarTwist across = u0 - u0.dot(unit) * unit;
-    return {true, across + k * across.norm() / std::sqrt(1.0 - k * k) * unit, {}};
+    const double dd = d.squaredNorm();
+    const double wd = w.dot(d);
+    const double rest = dd - wd * wd;
+    if (!(rest > 0.0)) return {};
+    const PlanarTwist across = u0 - u0.dot(d) / dd * d;
+    const double s = wd * std::sqrt(across.squaredNorm() / (dd * rest));
+    return {true, across + s * d, {}};
   }
 
   int slides(const SlideQuestion& question, int capacity, double* roots) const {
@@ -84,15 +85,10 @@ PlanarInstant solve_limit_surface(const LimitSurface& surface, const PlanarWrenc
   PlanarInstant answer;
   const bool has_surface = surface.F > 0.0 && surface.c > 0.0 &&
                            std::isfinite(surface.F) && std::isfinite(surface.c);
-  if (!has_surface || !is_sane(w_g, drive) || !(contact_rate(drive) > 0.0)) {
-    answer.status = InstantStatus::kBadInput;
-    return answer;
-  }
+  answer.status = InstantStatus::kBadInput;
+  if (!has_surface || !is_sane(w_g, drive)) return answer;
   const ScaledPush push = scaled(w_g, drive, Vec2::Zero(), surface.c, surface.F);
-  if (!is_within_range(push)) {
-    answer.status = InstantStatus::kBadInput;
-    return answer;
-  }
+  if (!(push.units.rate > 0.0) || !is_within_range(push)) return answer;
   report(push, judge_push(UnitSphere{}, push, nullptr, false), answer);
   return answer;
 }

@@ -222,13 +222,13 @@ int PadFriction::slides(const SlideQuestion& question, int capacity,
     return count;
   }
   const SlideEquation equation{points(), question};
-  if (capacity == 1) {
+  if (capacity <= 2) {
+    int count = 0;
     for (int i = 0; i < guesses; ++i) {
-      if (equation.polish(guess[i]) && question.slips(guess[i])) {
-        roots[0] = guess[i];
-        return 1;
-      }
+      if (equation.polish(guess[i]) && question.slips(guess[i]))
+        roots[count++] = guess[i];
     }
+    if (count > 0) return count;
   }
   return equation.scan(stretched.V.norm(), capacity, roots);
 }

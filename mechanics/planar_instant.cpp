@@ -104,6 +104,7 @@ void report_newton(const Problem& problem, const NewtonAnswer& newton,
     motion.w += wrench_of(push.p[i], f);
   }
   report(push, motion, answer);
+  answer.evaluations = newton.steps;
   for (int i = 0; i < push.count; ++i) {
     const double bound = push.mu * newton.normal[i];
     ContactMode& mode = answer.pusher[i].mode;
@@ -222,6 +223,7 @@ PlanarInstant solve_planar(const PlanarGrasp& grasp, const PlanarDrive& drive,
   } else {
     solve_inertial(grasp, problem, options, answer);
   }
+  answer.evaluations += problem.pads.sums();
   if (warm != nullptr) {
     warm->valid = usable(answer.status);
     warm->last = answer;

@@ -1,7 +1,5 @@
-#include <cmath>
 #include <cstdio>
 #include <memory>
-#include <numbers>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -17,41 +15,15 @@
 namespace prehensile::apps {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-
 struct Options {
   SceneOptions scene;
   PushOptions push;
-  std::string kind = "push";
-  double travel_mm = 10.0;
-  double turn_deg = 0.0;
-  double tolerance_um = 1.0;
-  int points = 16;
+  PathOptions path;
 };
-
-Push make_push(const Options& options, const Model& model, int contact) {
-  const double place = 1e-3 * options.push.place_mm;
-  const double travel = 1e-3 * options.travel_mm;
-  if (travel < 0.0 && options.kind != "roll") {
-    throw BadInput(
-        text("--travel-mm %g: expected at least 0 (turn the direction instead)",
-             options.travel_mm));
-  }
-  const double turn = kRadPerDeg * options.turn_deg;
-  const Vec2 e = chosen_direction(model, contact, options.push);
-  if (options.kind == "slide") {
-    return Slide{.contact = contact, .place = place, .e = e, .travel = travel};
-  }
-  if (options.kind == "pivot")
-    return Pivot{.contact = contact, .place = place, .turn = turn};
-  if (options.kind == "roll") return Roll{.contact = contact, .travel = travel};
-  return LinearPush{
-      .contact = contact, .place = place, .e = e, .travel = travel, .turn = turn};
-}
 
 std::string describe(const Model& model, const Options& options,
                      const Transition& transition, const std::vector<Sample>& trace) {
-  std::string out = options.kind + ": " + std::string(name(transition.status)) +
+  std::string out = options.path.kind + ": " + std::string(name(transition.status)) +
                     text(" after %.1f %% of the push", 100.0 * transition.done) + '\n';
   if (!transition.reason.empty()) out += std::string(transition.reason) + '\n';
   Table table({"done %", "x mm", "y mm", "theta deg", "roll deg", "force N", "normal N",
@@ -122,12 +94,13 @@ nlohmann::ordered_json to_json(const Transition& transition,
 
 int run(const Options& options) {
   const SceneFile file = read_scene(options.scene.file, options.scene.overrides);
-  const Model model = prepare(file.scene, {.points_per_pad = options.points});
+  const Model model = prepare(file.scene, {.points_per_pad = options.path.points});
   const int contact = chosen_contact(model, options.push);
-  const Push push = make_push(options, model, contact);
+  const Push push = chosen_push(model, contact, options.push, options.path);
   std::vector<Sample> trace;
-  const Transition transition = apply(model, chosen_grasp(model, options.push), push,
-                                      {.tolerance = 1e-6 * options.tolerance_um}, &trace);
+  const Transition transition =
+      apply(model, chosen_grasp(model, options.push), push,
+            {.tolerance = 1e-6 * options.path.tolerance_um}, &trace);
   if (options.scene.json) {
     std::printf("%s\n", to_json(transition, trace).dump(2).c_str());
   } else {
@@ -143,24 +116,7 @@ Command add_query_push(CLI::App& query) {
   CLI::App& command = *query.add_subcommand("push", "one push from pose to pose");
   add_scene_options(command, options->scene);
   add_push_options(command, options->push);
-  command
-      .add_option("--kind", options->kind, "slide, pivot, roll, or push: the general one")
-      ->check(CLI::IsMember({"slide", "pivot", "roll", "push"}))
-      ->capture_default_str();
-  command.add_option("--travel-mm", options->travel_mm, "of the pusher (not for pivot)")
-      ->check(CLI::Range(-1e4, 1e4))
-      ->capture_default_str();
-  command.add_option("--turn-deg", options->turn_deg, "of the pusher (pivot and push)")
-      ->check(CLI::Range(-3600.0, 3600.0))
-      ->capture_default_str();
-  command
-      .add_option("--tolerance-um", options->tolerance_um,
-                  "accepted error of the end pose")
-      ->check(CLI::Range(1e-6, 1e3))
-      ->capture_default_str();
-  command.add_option("--points", options->points, "contact points per pad")
-      ->check(CLI::IsMember({1, 4, 8, 16, 32, 64}))
-      ->capture_default_str();
+  add_path_options(command, options->path);
   command.footer(
       "Example:\n  prehensile query push problems/paper/slide.yaml --kind slide "
       "--travel-mm 15");

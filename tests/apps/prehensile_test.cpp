@@ -222,7 +222,8 @@ TEST(Program, WrongUseEndsWithTwoAndHelpWithZero) {
   EXPECT_EQ(run_program("check /dev/null").exit_code, 2);
   EXPECT_EQ(run_program("--help").exit_code, 0);
   for (const char* command :
-       {"plan", "check", "query instant", "query push", "inspect"}) {
+       {"plan", "check", "query instant", "query push", "query sweep", "query cone",
+        "query spread", "query contact", "inspect"}) {
     const Outcome help = run_program(std::string(command) + " --help");
     EXPECT_EQ(help.exit_code, 0) << command;
     EXPECT_NE(help.out.find("Example"), std::string::npos) << command;

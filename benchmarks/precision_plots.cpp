@@ -23,6 +23,18 @@ std::string number(double x) {
   return text.str();
 }
 
+/// "spatial 0.1" in words.
+std::string title_of(const std::string& set) {
+  const std::size_t space = set.find(' ');
+  if (space == std::string::npos) return set + " instants";
+  return set.substr(0, space) + " instants at " + set.substr(space + 1) + " m/s^2";
+}
+
+/// Compliances between those drawn tell little.
+bool is_drawn(const PrecisionRun& run) {
+  return run.compliance != 0.1 && run.compliance != 1e-3;
+}
+
 /// What a line of the plot keeps fixed while something else varies.
 std::string line_of(const PrecisionRun& run) {
   std::string label = run.solver;
@@ -70,7 +82,7 @@ std::vector<PrecisionPoint> points_of(const std::vector<PrecisionRun>& runs) {
 std::string work_precision_svg(const std::vector<PrecisionPoint>& points,
                                const std::string& set) {
   plot::Chart chart;
-  chart.title = "Error against run time, " + set + " instants";
+  chart.title = "Error against run time, " + title_of(set);
   chart.subtitle =
       "solid: 95th percentile, dotted: median; points per pad vary unless said";
   chart.x = {.label = "median time [us]", .scale = plot::Scale::kLog};
@@ -79,7 +91,9 @@ std::string work_precision_svg(const std::vector<PrecisionPoint>& points,
   chart.height = 560.0;
   std::vector<std::string> labels;
   for (const PrecisionPoint& point : points) {
-    if (point.example.set != set || point.solved == 0) continue;
+    if (point.example.set != set || point.solved == 0 || !is_drawn(point.example)) {
+      continue;
+    }
     const std::string label = line_of(point.example);
     if (std::find(labels.begin(), labels.end(), label) == labels.end()) {
       labels.push_back(label);
@@ -123,7 +137,7 @@ std::string profile_svg(const std::vector<PrecisionRun>& runs,
     times[run.instance][run.solver] = run.solved ? run.time_us : kNever;
   }
   plot::Chart chart;
-  chart.title = "Performance profile, " + question.set + " instants, k = ";
+  chart.title = "Performance profile, " + title_of(question.set) + ", k = ";
   chart.title += std::to_string(question.points);
   chart.subtitle =
       std::to_string(times.size()) +

@@ -99,12 +99,19 @@ Eigen::Matrix<double, 9, 1> in_units(const SpatialProblem& problem, const Spatia
   return all;
 }
 
+/// The motion next to a given one: some instants have several.
+SpatialInstant followed(const SpatialProblem& problem, const SpatialInstant& answer) {
+  SpatialWarmStart warm{true, answer};
+  return solve_spatial(problem, kSharp, &warm);
+}
+
 /// Distance of the derivative from the difference quotient between two steps, over the
 /// size of the two; infinite where an end has no such answer.
-double error_between(const SpatialProblem& problem, const Parameter& parameter,
-                     const SpatialSensitivity& change, double from, double to) {
-  const SpatialInstant low = solve_spatial(changed(problem, parameter, from), kSharp);
-  const SpatialInstant high = solve_spatial(changed(problem, parameter, to), kSharp);
+double error_between(const SpatialProblem& problem, const SpatialInstant& answer,
+                     const Parameter& parameter, const SpatialSensitivity& change,
+                     double from, double to) {
+  const SpatialInstant low = followed(changed(problem, parameter, from), answer);
+  const SpatialInstant high = followed(changed(problem, parameter, to), answer);
   if (low.status != InstantStatus::kMoves || high.status != InstantStatus::kMoves) {
     return std::numeric_limits<double>::infinity();
   }
@@ -135,7 +142,8 @@ void compare(int total, int least) {
           differentiated.along(variation_of(problem, parameter));
       double error = std::numeric_limits<double>::infinity();
       for (const double step : {1e-4, 1e-5, 1e-6}) {
-        error = std::min(error, error_between(problem, parameter, change, -step, step));
+        error = std::min(error,
+                         error_between(problem, answer, parameter, change, -step, step));
       }
       if (!std::isfinite(error)) continue;
       ++compared;
@@ -188,10 +196,10 @@ TEST(SpatialSensitivity, HoldsOnOneSideAtAChangeOfMode) {
         differentiated.along(variation_of(problem, friction));
     double on_its_side = std::numeric_limits<double>::infinity();
     for (const double step : {1e-4, 1e-5, 3e-6}) {
-      on_its_side =
-          std::min(on_its_side, error_between(problem, friction, change, -step, 0.0));
+      on_its_side = std::min(
+          on_its_side, error_between(problem, answer, friction, change, -step, 0.0));
     }
-    const double beyond = error_between(problem, friction, change, 1e-5, 1e-4);
+    const double beyond = error_between(problem, answer, friction, change, 1e-5, 1e-4);
     if (!std::isfinite(on_its_side) || !std::isfinite(beyond)) continue;
     EXPECT_LT(on_its_side, 5e-3) << i;
     EXPECT_GT(beyond, 10.0 * on_its_side) << i;

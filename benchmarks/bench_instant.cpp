@@ -207,7 +207,8 @@ void study_sequence(const Options& options, std::vector<Run>& runs) {
     const Reference before = reference_for(options, index, kPointsOfSequence);
     Reference reference = before;
     reference.instant = stepped(before.instant);
-    const auto& [grasp, drive] = reference.instant;
+    const PlanarGrasp& grasp = reference.instant.grasp;
+    const PlanarDrive& drive = reference.instant.drive;
     reference.answer = solve_planar(grasp, drive);
     for (const bool warm : {false, true}) {
       PlanarInstant answer;

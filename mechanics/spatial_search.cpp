@@ -17,7 +17,7 @@ constexpr double kFallRate = 10.0;   ///< rates that no pusher or foundation cau
 constexpr double kFallTolerance = 1e-8;  ///< enough for evidence
 constexpr double kOtherMotion = 1e-5;
 constexpr double kJamBalance = 1e-7;  ///< imbalance of unit forces that counts as none
-constexpr double kMostJamUnit = 1e12;
+constexpr int kJamTrials = 12;
 constexpr double kJamShare = 1e-4;  ///< least force of a jam: push rate over compliance
 
 double least_compliance(const ScaledSpatial& problem) {
@@ -361,7 +361,8 @@ bool SpatialSearch::follow_jam(double softest, NewtonStart start, SpatialForces&
   for (int k = 0; k < jam.patch_count; ++k) jam.patch[k].R /= softest;
   SpatialForces known;
   const double first = start.forces != nullptr ? 1.0 / softest : 100.0;
-  for (double unit = first; unit <= kMostJamUnit; unit *= 10.0) {
+  double unit = first;
+  for (int trial = 0; trial < kJamTrials; ++trial, unit *= 10.0) {
     jam.f = problem_.f / unit;
     jam.M = problem_.M / unit;
     for (int j = 0; j < jam.padded; ++j) jam.preload[j] = problem_.preload[j] / unit;

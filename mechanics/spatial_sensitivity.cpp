@@ -128,7 +128,7 @@ void DifferentiatedSpatialInstant::fill_system() noexcept {
     }
   }
   const Eigen::JacobiSVD<System> svd(system, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Column values = svd.singularValues();
+  const auto& values = svd.singularValues();
   Column inverses = Column::Zero();
   for (int i = 0; i < kMost; ++i) {
     if (values[i] > kSingular * values[0]) {

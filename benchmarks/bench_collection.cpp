@@ -1,11 +1,12 @@
-/// The pivoting solver on the public collection of complementarity problems that the
-/// Siconos project keeps for its own: one CSV line per file, refusals included.
+/// The solvers on the public collection of complementarity problems that the Siconos
+/// project keeps for its own: one CSV line per file, refusals included.
 ///
 /// FOLDER holds the folders lcp, mlcp, fc2d, fc3d (any of them). Linear and mixed
-/// problems are solved: a residual of at most 1e-8, or refused with the reason. Friction
-/// problems are listed with the number of bodies that their matrix has room for; they are
-/// of another kind than ours (many bodies, given inertia), so no solver here takes them.
-/// Any other folder is named as out of scope.
+/// problems go to the pivoting solver. Friction problems whose matrix has at most eight
+/// dimensions (one body, or a small mechanism) go to the exact solver on circular cones.
+/// Each ends solved, with a residual of at most 1e-8 against the file's own matrix, or
+/// refused with the reason. Friction problems of more freedoms, and any other folder, are
+/// named as out of scope.
 ///
 /// Usage: bench_collection FOLDER [-o FILE]
 #include <algorithm>
@@ -14,12 +15,16 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <Eigen/QR>
 
 #include "benchmarks/csv_file.h"
 #include "benchmarks/measure.h"
+#include "benchmarks/natural_map.h"
 #include "io/friction_collection.h"
 #include "mechanics/mixed_lemke.h"
+#include "mechanics/row_contacts.h"
 
 namespace prehensile::benchmarks {
 namespace {
@@ -34,10 +39,10 @@ struct Run {
   std::string file;
   int rows = 0;
   int contacts = 0;
-  std::string verdict;  // solved, refused, listed, not read, out of scope
+  std::string verdict;  // solved, refused, not read, out of scope
   std::string reason;
   double residual = std::numeric_limits<double>::quiet_NaN();
-  int pivots = 0;
+  int pivots = 0;  ///< or Newton steps
   double time_us = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -94,17 +99,94 @@ void run_mixed(const std::string& text, Run& run) {
   set_verdict(found.status, found.residual, run);
 }
 
-/// W = H M^-1 H^T has as many dimensions as the bodies have freedoms.
-void list_friction(const std::string& text, Run& run) {
+/// u = W r + q as rows over rates: W = G M^-1 G' with a basis of its range for G. Says
+/// why not, if not.
+std::string state_by_rows(const FrictionProblemFile& file, RowProblem& rows) {
+  if (file.contacts > RowProblem::kMaxContacts) {
+    return "more contacts than the solver has room for";
+  }
+  const double size = file.W.cwiseAbs().maxCoeff();
+  if (!(size > 0.0)) return "matrix of zeros";
+  // Columns of both W and W', because systems with gyroscopic terms are not symmetric.
+  Eigen::MatrixXd both(file.W.rows(), 2 * file.W.cols());
+  both << file.W, file.W.transpose();
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(both);
+  qr.setThreshold(1e-9);
+  const auto rank = qr.rank();
+  if (rank > RowProblem::kMaxRates) {
+    return "out of scope: " + std::to_string(rank) + " freedoms; the solver has " +
+           std::to_string(RowProblem::kMaxRates) + " rates";
+  }
+  const Eigen::MatrixXd basis =
+      Eigen::MatrixXd(qr.householderQ()).leftCols(rank) * std::sqrt(size);
+  const Eigen::MatrixXd mobility = basis.transpose() * file.W * basis / (size * size);
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(mobility);
+  if (!lu.isInvertible())
+    return "matrix of no mechanical system: forces and rates "
+           "span different spaces";
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+      0.5 * (mobility + mobility.transpose()));
+  if (!(eigen.eigenvalues()[0] > 0.0)) return "matrix not positive semidefinite";
+  rows.rates = static_cast<int>(rank);
+  rows.count = file.contacts;
+  rows.inertia.topLeftCorner(rank, rank) = lu.inverse();
+  const int d = file.dimension;
+  for (int i = 0; i < file.contacts; ++i) {
+    rows.G[i].setZero();
+    rows.G[i].topLeftCorner(d, rank) = basis.middleRows(d * i, d);
+    rows.b[i].setZero();
+    rows.b[i].head(d) = file.q.segment(d * i, d);
+    rows.mu[i] = file.mu[i];
+    rows.compliance[i] = rows.preload[i] = 0.0;
+  }
+  return "";
+}
+
+/// Of the forces alone, with the file's own matrix: |r - P(r - (u + mu |u_t| n))| in
+/// forces of u's size, over the contacts.
+double residual_of(const FrictionProblemFile& file, const RowSolution& found) {
+  const int d = file.dimension;
+  Eigen::VectorXd r(file.q.size());
+  for (int i = 0; i < file.contacts; ++i) r.segment(d * i, d) = found.r[i].head(d);
+  const Eigen::VectorXd u = file.W * r + file.q;
+  const double rate = std::max(file.q.cwiseAbs().maxCoeff(), 1e-300);
+  const double force = rate / file.W.diagonal().maxCoeff();
+  double worst = 0.0;
+  for (int i = 0; i < file.contacts; ++i) {
+    Vec3 r_i = Vec3::Zero();
+    Vec3 u_i = Vec3::Zero();
+    r_i.head(d) = r.segment(d * i, d) / force;
+    u_i.head(d) = u.segment(d * i, d) / rate;
+    u_i[0] += file.mu[i] * u_i.tail<2>().norm();
+    worst = std::max(worst, (r_i - projected_on_cone(r_i - u_i, file.mu[i])).norm());
+  }
+  return worst;
+}
+
+/// One body, or any system of at most eight freedoms: the iteration of the spatial
+/// solver on its rows. Others are named with their size.
+void run_friction(const std::string& text, Run& run) {
   const FrictionProblemFile problem = parse_friction_problem(text, run.file);
   run.rows = static_cast<int>(problem.q.size());
   run.contacts = problem.contacts;
-  const auto rank = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(problem.W).rank();
-  const int freedoms = problem.dimension == 3 ? 6 : 3;
-  const bool one_body = rank <= freedoms;
-  run.verdict = "listed";
-  run.reason = "friction problem of " + std::to_string(rank) + " freedoms" +
-               (one_body ? " (one body)" : "");
+  RowProblem rows;
+  run.reason = state_by_rows(problem, rows);
+  run.verdict = "refused";
+  if (run.reason.starts_with("out of scope")) run.verdict = "out of scope";
+  if (!run.reason.empty()) return;
+  RowSolution found;
+  const SpatialSolveOptions options{.tolerance = 1e-10};
+  run.time_us = time_us([&] { found = solve_rows(rows, options); }, 3);
+  run.pivots = found.iterations;
+  if (found.status != InstantStatus::kMoves) {
+    run.reason = "no answer found";
+    run.residual = found.residual;
+    return;
+  }
+  run.residual = residual_of(problem, found);
+  run.reason = run.residual <= kAccepted ? "" : "residual above 1e-8";
+  run.verdict = run.reason.empty() ? "solved" : "refused";
+  if (run.reason.empty()) run.reason = std::to_string(rows.rates) + " freedoms";
 }
 
 Run run_file(const std::string& kind, const fs::path& file) {
@@ -118,7 +200,7 @@ Run run_file(const std::string& kind, const fs::path& file) {
     } else if (kind == "mlcp") {
       run_mixed(text, run);
     } else {
-      list_friction(text, run);
+      run_friction(text, run);
     }
   } catch (const BadInput& bad) {
     run.verdict = "not read";

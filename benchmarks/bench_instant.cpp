@@ -4,6 +4,9 @@
 /// closed form over the ellipsoid, against the exact solver with 64 points.
 /// Study `generators`: what polyhedral friction costs. The paper's formulation through
 /// Ipopt with g generators against the exact solver over the same 4 points per pad.
+/// Study `sequence`: 16 points, solved cold, and warm after a step of 0.1 mm and 0.2 deg
+/// of the object in the hand; `evaluations` counts sums over the points, with derivatives
+/// or without. Last, the closed form is timed against its own square roots and divisions.
 ///
 /// Every run gives a line: refusals and failures too, with no error but with a status.
 /// Usage: bench_instant [--quick] [--instances N] [--ipopt-instances N] [--seed S]
@@ -37,6 +40,7 @@ struct Options {
 
 constexpr int kFinestPad = 64;
 constexpr int kPointsForGenerators = 4;
+constexpr int kPointsOfSequence = 16;
 
 struct Run {
   const char* study;
@@ -51,6 +55,7 @@ struct Run {
   double certificate = kNan;  // by separate code; of the circular cone
   double time_us = kNan;
   int iterations = 0;
+  int evaluations = 0;
 };
 
 double push_rate(const PlanarDrive& drive) {
@@ -87,6 +92,7 @@ void compare(const Reference& reference, const PlanarInstant& answer, Run& run) 
   run.reference_status = reference.answer.status;
   run.residual = answer.residual;
   run.iterations = answer.iterations;
+  run.evaluations = answer.evaluations;
   if (!usable(answer.status) || !usable(reference.answer.status)) return;
   const auto& [grasp, drive] = reference.instant;
   const PlanarTwist V = answer.V_HO - reference.answer.V_HO;
@@ -180,35 +186,115 @@ void study_generators(const Options& options, std::vector<Run>& runs) {
   }
 }
 
+/// The object turned and shifted in the hand, and with it gravity and pusher.
+RandomInstant stepped(const RandomInstant& instant) {
+  constexpr double kTurn = 0.2 * 0.017453292519943295;
+  const Vec2 shift = 1e-4 * instant.drive.t_H();
+  const auto moved = [&](const Vec2& p) { return Vec2(rotated(kTurn, p) + shift); };
+  RandomInstant next = instant;
+  for (Vec2& p : next.drive.p_HC) p = moved(p);
+  next.drive.n_H = rotated(kTurn, instant.drive.n_H);
+  const PlanarTwist& V = instant.drive.V_HP;
+  next.drive.V_HP << rotated(kTurn, Vec2(V.head<2>())) - V[2] * perp(shift), V[2];
+  const PlanarWrench& w = instant.grasp.w_g;
+  const Vec2 f = rotated(kTurn, Vec2(w.head<2>()));
+  next.grasp.w_g << f, w[2] + cross(shift, f);
+  return next;
+}
+
+void study_sequence(const Options& options, std::vector<Run>& runs) {
+  for (int index = 0; index < options.instances; ++index) {
+    const Reference before = reference_for(options, index, kPointsOfSequence);
+    Reference reference = before;
+    reference.instant = stepped(before.instant);
+    const PlanarGrasp& grasp = reference.instant.grasp;
+    const PlanarDrive& drive = reference.instant.drive;
+    reference.answer = solve_planar(grasp, drive);
+    for (const bool warm : {false, true}) {
+      PlanarInstant answer;
+      const auto solve = [&] {
+        PlanarWarmStart start{warm && usable(before.answer.status), before.answer};
+        return solve_planar(grasp, drive, {}, &start);
+      };
+      Run run = measured(reference, options.batches, solve, answer);
+      run.certificate = certify(grasp, drive, answer).worst;
+      run.study = "sequence";
+      run.solver = warm ? "warm" : "cold";
+      run.setting = kPointsOfSequence;
+      run.instance = index;
+      runs.push_back(run);
+    }
+  }
+}
+
+/// A point that sticks takes the closed form five square roots (rate of the pusher,
+/// motion, friction, misfit, push force) and seven divisions (three units, motion twice,
+/// friction, force at the point). Here they follow each other with nothing between.
+double roots_and_divisions_us() {
+  const volatile double seed = 1.7;
+  [[maybe_unused]] volatile double used = 0.0;
+  return time_us(
+      [&] {
+        double x = seed;
+        for (int k = 0; k < 5; ++k) x = std::sqrt(x + 1.0);
+        for (int k = 0; k < 7; ++k) x = 1.0 / (x + 0.5);
+        used = x;
+      },
+      50);
+}
+
+void write_closed_form(const Options& options, std::FILE* out) {
+  std::vector<double> sticks;
+  std::vector<double> all;
+  [[maybe_unused]] volatile double used = 0.0;
+  for (int index = 0; index < options.instances; ++index) {
+    const RandomInstant q = random_instant(options.seed, index, {.points_per_pad = 16});
+    const LimitSurface surface{q.grasp.capacity(), torque_radius(q.grasp)};
+    const auto solve = [&] { return solve_limit_surface(surface, q.grasp.w_g, q.drive); };
+    const PlanarInstant answer = solve();
+    if (answer.status != InstantStatus::kMoves) continue;
+    all.push_back(time_us([&] { used = solve().residual; }, options.batches));
+    const bool point = q.drive.count == 1 && answer.pusher[0].mode == ContactMode::kStick;
+    if (point) sticks.push_back(all.back());
+  }
+  const double bare = roots_and_divisions_us();
+  std::fprintf(out,
+               "closed form: median %.4f us; a point that sticks %.4f us, its square "
+               "roots and divisions alone %.4f us (1 : %.1f)\n",
+               quantile(all, 0.5), quantile(sticks, 0.5), bare,
+               quantile(sticks, 0.5) / bare);
+}
+
 void write_csv(const Options& options, const std::vector<Run>& runs, std::FILE* out) {
   std::fputs(
       "study,solver,setting,seed,instance,status,reference_status,force_error,"
-      "twist_error,residual,certificate,time_us,iterations,batches,compiler,cpu\n",
+      "twist_error,residual,certificate,time_us,iterations,evaluations,batches,compiler,"
+      "cpu\n",
       out);
   const std::string compiler = field(compiler_name());
   const std::string cpu = field(cpu_name());
   for (const Run& run : runs) {
     std::fprintf(
-        out, "%s,%s,%d,%llu,%d,%s,%s,%.6g,%.6g,%.3g,%.3g,%.4g,%d,%d,%s,%s\n", run.study,
-        run.solver, run.setting, static_cast<unsigned long long>(options.seed),
+        out, "%s,%s,%d,%llu,%d,%s,%s,%.6g,%.6g,%.3g,%.3g,%.4g,%d,%d,%d,%s,%s\n",
+        run.study, run.solver, run.setting, static_cast<unsigned long long>(options.seed),
         run.instance, name(run.status).data(), name(run.reference_status).data(),
         run.force_error, run.twist_error, run.residual, run.certificate, run.time_us,
-        run.iterations, options.batches, compiler.c_str(), cpu.c_str());
+        run.iterations, run.evaluations, options.batches, compiler.c_str(), cpu.c_str());
   }
 }
 
 /// One line per study, solver and setting. `asked`: runs whose reference has an answer;
 /// `answered`: those of them that gave one too.
 void write_summary(const std::vector<Run>& runs, std::FILE* out) {
-  std::fprintf(out, "%-11s%-7s%8s%7s%9s%11s%10s%11s%10s%11s%10s\n", "study", "solver",
+  std::fprintf(out, "%-11s%-7s%8s%7s%9s%11s%10s%11s%10s%11s%10s%13s\n", "study", "solver",
                "setting", "asked", "answered", "force med", "p95", "twist med", "p95",
-               "us med", "p95");
+               "us med", "p95", "evaluations");
   std::vector<const Run*> left;
   left.reserve(runs.size());
   for (const Run& run : runs) left.push_back(&run);
   while (!left.empty()) {
     const Run& first = *left.front();
-    std::vector<double> force, twist, time;
+    std::vector<double> force, twist, time, evaluations;
     int asked = 0;
     std::erase_if(left, [&](const Run* run) {
       if (std::strcmp(run->study, first.study) != 0 ||
@@ -218,17 +304,19 @@ void write_summary(const std::vector<Run>& runs, std::FILE* out) {
       if (!usable(run->reference_status)) return true;
       ++asked;
       time.push_back(run->time_us);
+      evaluations.push_back(run->evaluations);
       if (!std::isnan(run->force_error)) {
         force.push_back(run->force_error);
         twist.push_back(run->twist_error);
       }
       return true;
     });
-    std::fprintf(out,
-                 "%-11s %-7s %7d %6d %9zu %10.2e %10.2e %10.2e %10.2e %10.2f %10.2f\n",
-                 first.study, first.solver, first.setting, asked, force.size(),
-                 quantile(force, 0.5), quantile(force, 0.95), quantile(twist, 0.5),
-                 quantile(twist, 0.95), quantile(time, 0.5), quantile(time, 0.95));
+    std::fprintf(
+        out, "%-11s %-7s %7d %6d %9zu %10.2e %10.2e %10.2e %10.2e %10.2f %10.2f %12.0f\n",
+        first.study, first.solver, first.setting, asked, force.size(),
+        quantile(force, 0.5), quantile(force, 0.95), quantile(twist, 0.5),
+        quantile(twist, 0.95), quantile(time, 0.5), quantile(time, 0.95),
+        quantile(evaluations, 0.5));
   }
 }
 
@@ -291,9 +379,11 @@ int run(int count, char** arguments) {
   std::vector<Run> runs;
   study_pads(options, runs);
   study_generators(options, runs);
+  study_sequence(options, runs);
   write_csv(options, runs, csv.get());
   const bool written = csv.close();
   write_summary(runs, stderr);
+  write_closed_form(options, stderr);
   return written ? 0 : 1;
 }
 

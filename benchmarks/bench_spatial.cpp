@@ -21,17 +21,10 @@
 
 #include "benchmarks/csv_file.h"
 #include "benchmarks/measure.h"
-#include "benchmarks/natural_map.h"
-#include "benchmarks/siconos_peer.h"
-#include "mechanics/spatial_instant.h"
-#include "mechanics/spatial_reference.h"
-#include "problems/random_spatial.h"
+#include "benchmarks/spatial_runs.h"
 
 namespace prehensile::benchmarks {
 namespace {
-
-constexpr double kSuccess = 1e-6;
-constexpr int kSeconds = 20;  // that a peer may take
 
 struct Options {
   int instances = 60;
@@ -45,148 +38,39 @@ struct Options {
   const char* file = nullptr;
 };
 
-struct Run {
-  const char* solver;
-  int generators = 0;  // 0: circular
-  int points;
-  double acceleration;
-  int instance;
-  const char* reference_status;
-  bool asked = false;  // the exact solver has one answer
-  bool success = false;
-  double force_error = kNan;  // of the push force, in capacities of the pads
-  double twist_error = kNan;  // in push rates, turns by 1 cm
-  double residual = kNan;
-  double time_us = kNan;
-  int iterations = 0;
-};
-
-struct Question {
-  SpatialProblem problem;
-  SpatialScales units;
-  double capacity;  // of both pads [N]
-  SpatialInstant exact;
-};
-
-/// A question posed with its units: the lever of the pads, their capacity or the weight,
-/// and the rate of the push.
-Question posed(const Options& options, int points, double acceleration, int index) {
-  Question q;
-  q.problem = random_spatial(
-      options.seed, static_cast<std::uint64_t>(index),
-      {.points_per_pad = points, .pusher_points = 1, .acceleration = acceleration});
-  q.capacity = 2.0 * q.problem.patch[0].mu * q.problem.grip_force;
-  q.units.length = 0.01;
-  q.units.force = std::max(q.problem.grip_force, q.problem.w_g.head<3>().norm());
-  q.units.rate = q.problem.V_HP.head<3>().norm();
-  q.exact = solve_spatial(q.problem);
-  return q;
-}
-
-SpatialWrench push_of(const SpatialProblem& q, const SpatialAnswer& answer) {
-  SpatialWrench w = SpatialWrench::Zero();
-  for (int k = 0; k < q.patch_count; ++k) {
-    const ContactPatch& patch = q.patch[k];
-    if (patch.body != ContactBody::kPusher) continue;
-    for (int i = patch.first; i < patch.first + patch.count; ++i) {
-      const Vec3& f = answer.force[i];
-      w.head<3>() += f[0] * patch.n + f[1] * patch.t + f[2] * patch.o();
-    }
-  }
-  return w;
-}
-
-void compare(const Question& q, const SpatialAnswer& answer, Run& run) {
-  run.asked = q.exact.status == InstantStatus::kMoves;
-  run.reference_status = name(q.exact.status).data();
-  run.residual = natural_residual(q.problem, answer, q.units);
-  run.success = run.residual <= kSuccess;
-  if (!run.asked || !answer.given) return;
-  const SpatialWrench w = push_of(q.problem, answer) - q.exact.w_push;
-  SpatialTwist V = answer.V_HO - q.exact.V_HO;
-  V.tail<3>() *= q.units.length;
-  run.force_error = w.head<3>().norm() / q.capacity;
-  run.twist_error = V.norm() / q.units.rate;
-}
-
-Run exact_run(const Options& options, const Question& q) {
-  Run run{.solver = "exact"};
-  [[maybe_unused]] volatile double used = 0.0;
-  run.time_us =
-      time_us([&] { used = solve_spatial(q.problem).residual; }, options.batches);
-  run.iterations = q.exact.iterations;
-  SpatialAnswer answer{.given = usable(q.exact.status),
-                       .V_HO = q.exact.V_HO,
-                       .jaw_rate = q.exact.jaw_rate};
-  for (int i = 0; i < q.exact.count; ++i) {
-    const SpatialPoint& point = q.exact.point[i];
-    answer.force.emplace_back(point.normal_force, point.tangential_force.x(),
-                              point.tangential_force.y());
-  }
-  compare(q, answer, run);
-  return run;
-}
-
-template <typename Solve>
-Run polyhedral_run(const Question& q, const char* solver, int generators,
-                   const Solve& solve) {
-  Run run{.solver = solver, .generators = generators};
-  SpatialReference found;
-  const double start = thread_time_us();
-  found = solve(q.problem, {.generators = generators});
-  run.time_us = thread_time_us() - start;
-  run.iterations = found.steps;
-  SpatialAnswer answer{.given = found.status == SpatialReferenceStatus::kSolved,
-                       .V_HO = found.V_HO,
-                       .jaw_rate = found.jaw_rate};
-  for (const SpatialReferencePoint& point : found.point) {
-    answer.force.emplace_back(point.normal_force, point.tangential_force.x(),
-                              point.tangential_force.y());
-  }
-  compare(q, answer, run);
-  run.success = answer.given && found.residual <= kSuccess;
-  return run;
-}
-
-Run siconos_run(const Question& q, SiconosSolver solver) {
-  Run run{.solver = name(solver)};
-  const SiconosRun found = solve_siconos(q.problem, solver, kSeconds);
-  run.time_us = found.time_us;
-  run.iterations = found.iterations;
-  compare(q, found.answer, run);
-  return run;
-}
-
 void run_instance(const Options& options, int points, double acceleration, int index,
-                  std::vector<Run>& runs) {
-  const Question q = posed(options, points, acceleration, index);
-  const auto add = [&](Run run) {
+                  std::vector<SpatialRun>& runs) {
+  const SpatialQuestion q = posed(random_spatial(
+      options.seed, static_cast<std::uint64_t>(index),
+      {.points_per_pad = points, .pusher_points = 1, .acceleration = acceleration}));
+  const auto add = [&](SpatialRun run) {
     run.points = points;
     run.acceleration = acceleration;
     run.instance = index;
     runs.push_back(run);
   };
-  add(exact_run(options, q));
+  add(exact_run(q, options.batches));
   for (const int g : options.generators) {
     // Cost grows with the third power of points times generators.
-    if (points * g <= 64) add(polyhedral_run(q, "pivoting", g, solve_spatial_pivoting));
+    if (points * g <= 64) add(pivoting_run(q, g));
   }
   if (!options.peers || index % options.peer_share != 0) return;
   if (spatial_reference_is_built() && points <= 4) {
-    add(polyhedral_run(q, "ipopt", 8, solve_spatial_reference));
+    add(ipopt_run(q, 8));
   }
   if (!siconos_is_built() || acceleration <= 0.0) return;
   for (const SiconosSolver solver : kSiconosSolvers) add(siconos_run(q, solver));
 }
 
-void write_csv(const Options& options, const std::vector<Run>& runs, std::FILE* out) {
+void write_csv(const Options& options, const std::vector<SpatialRun>& runs,
+               std::FILE* out) {
   std::fputs(
       "solver,generators,points_per_pad,acceleration,seed,instance,reference_status,"
       "success,force_error,twist_error,residual,time_us,iterations,compiler,cpu\n",
       out);
   const std::string compiler = field(compiler_name());
   const std::string cpu = field(cpu_name());
-  for (const Run& run : runs) {
+  for (const SpatialRun& run : runs) {
     std::fprintf(out, "%s,%d,%d,%g,%llu,%d,%s,%d,%.6g,%.6g,%.3g,%.4g,%d,%s,%s\n",
                  run.solver, run.generators, run.points, run.acceleration,
                  static_cast<unsigned long long>(options.seed), run.instance,
@@ -198,26 +82,27 @@ void write_csv(const Options& options, const std::vector<Run>& runs, std::FILE* 
 
 /// One line per solver, generators, points and acceleration, over the instances that were
 /// asked (the exact solver gives one answer).
-void write_summary(const std::vector<Run>& runs, std::FILE* out) {
+void write_summary(const std::vector<SpatialRun>& runs, std::FILE* out) {
   std::fprintf(out, "%6s %6s %-15s%3s%6s%5s%10s%10s%10s%10s%10s%11s%11s\n", "accel",
                "points", "solver", "g", "asked", "ok", "force med", "p95", "twist med",
                "p95", "residual", "us med", "p95");
-  const auto key = [](const Run& run) {
+  const auto key = [](const SpatialRun& run) {
     return std::tuple(run.acceleration, run.points, std::string(run.solver),
                       run.generators);
   };
-  std::vector<const Run*> left;
-  for (const Run& run : runs) {
+  std::vector<const SpatialRun*> left;
+  for (const SpatialRun& run : runs) {
     if (run.asked) left.push_back(&run);
   }
-  std::stable_sort(left.begin(), left.end(),
-                   [&](const Run* a, const Run* b) { return key(*a) < key(*b); });
+  std::stable_sort(
+      left.begin(), left.end(),
+      [&](const SpatialRun* a, const SpatialRun* b) { return key(*a) < key(*b); });
   for (std::size_t first = 0; first < left.size();) {
     std::vector<double> force, twist, residual, time;
     int ok = 0;
     std::size_t last = first;
     for (; last < left.size() && key(*left[last]) == key(*left[first]); ++last) {
-      const Run& run = *left[last];
+      const SpatialRun& run = *left[last];
       ok += run.success ? 1 : 0;
       time.push_back(run.time_us);
       residual.push_back(run.residual);
@@ -225,7 +110,7 @@ void write_summary(const std::vector<Run>& runs, std::FILE* out) {
       force.push_back(run.force_error);
       twist.push_back(run.twist_error);
     }
-    const Run& run = *left[first];
+    const SpatialRun& run = *left[first];
     std::fprintf(out,
                  "%6g %6d %-15s%3d%6zu%5d%10.1e%10.1e%10.1e%10.1e%10.1e%11.1f%11.1f\n",
                  run.acceleration, run.points, run.solver, run.generators, last - first,
@@ -292,7 +177,7 @@ int run(int count, char** arguments) {
   CsvFile csv(options.file);
   if (!csv.get()) return 2;
   if (!siconos_is_built()) std::fputs("built without Siconos: no peers\n", stderr);
-  std::vector<Run> runs;
+  std::vector<SpatialRun> runs;
   for (const double acceleration : options.accelerations) {
     for (const int points : options.points) {
       for (int index = 0; index < options.instances; ++index) {

@@ -57,6 +57,17 @@ inline std::string compiler_name() {
 #endif
 }
 
+/// Which of the two builds this is: see the presets.
+inline const char* build_name() {
+#if !defined(NDEBUG)
+  return "debug build";
+#elif defined(__AVX__)
+  return "tuned release build";
+#else
+  return "portable release build";
+#endif
+}
+
 /// The processor as the kernel names it.
 inline std::string cpu_name() {
   std::ifstream in("/proc/cpuinfo");

@@ -77,6 +77,9 @@ struct PlanarInstant {
 
   double residual = kNan;  ///< solver's own natural-map residual in units (F0, V0)
   int iterations = 0;
+  int evaluations = 0;  ///< sums over the finger points, with derivatives or without, of
+                        ///< all modes tried (Newton's method: its steps); 0 for solvers
+                        ///< without points
 
   PlanarTwist evidence = PlanarTwist::Constant(kNan);  ///< see kDynamic, kAmbiguous
   PlanarTwist other = PlanarTwist::Constant(kNan);     ///< see kAmbiguous, if found

@@ -15,8 +15,8 @@ class UnitSphere {
   double dissipation(const PlanarTwist& u) const { return u.norm(); }
 
   PlanarWrench resistance(const PlanarTwist& u, const Pivot&) const {
-    const double norm = u.norm();
-    return norm > 0.0 ? PlanarWrench(u / norm) : PlanarWrench(PlanarWrench::Zero());
+    const double square = u.squaredNorm();
+    return (square > 0.0 ? 1.0 / std::sqrt(square) : 0.0) * u;
   }
 
   Pivot pivot_at(const PlanarTwist&) const { return {}; }
@@ -27,9 +27,8 @@ class UnitSphere {
   }
 
   bool holds(const PlanarWrench& w, PlanarTwist* unsupported) const {
-    const double load = w.norm();
-    if (load < 1.0) return true;
-    *unsupported = w / load;
+    if (w.squaredNorm() < 1.0) return true;
+    *unsupported = w.normalized();
     return false;
   }
 
@@ -44,14 +43,16 @@ class UnitSphere {
     return {true, lambda, w + lambda * e, {}};
   }
 
-  /// On u = (part of u0 at right angles to d) + r d/|d|, power is sqrt(q^2 + r^2) - k r.
+  /// On u = a + s d with a at right angles to d, power is sqrt(a^2 + s^2 d^2) - s w.d.
   LowestOnLine lowest(const PlanarTwist& u0, const PlanarTwist& d, const PlanarWrench& w,
                       const PlanarTwist*) const {
-    const PlanarTwist unit = d.normalized();
-    const double k = w.dot(unit);
-    if (!(std::abs(k) < 1.0)) return {};
-    const PlanarTwist across = u0 - u0.dot(unit) * unit;
-    return {true, across + k * across.norm() / std::sqrt(1.0 - k * k) * unit, {}};
+    const double dd = d.squaredNorm();
+    const double wd = w.dot(d);
+    const double rest = dd - wd * wd;
+    if (!(rest > 0.0)) return {};
+    const PlanarTwist across = u0 - u0.dot(d) / dd * d;
+    const double s = wd * std::sqrt(across.squaredNorm() / (dd * rest));
+    return {true, across + s * d, {}};
   }
 
   int slides(const SlideQuestion& question, int capacity, double* roots) const {
@@ -84,11 +85,10 @@ PlanarInstant solve_limit_surface(const LimitSurface& surface, const PlanarWrenc
   PlanarInstant answer;
   const bool has_surface = surface.F > 0.0 && surface.c > 0.0 &&
                            std::isfinite(surface.F) && std::isfinite(surface.c);
-  if (!has_surface || !is_sane(w_g, drive) || !(contact_rate(drive) > 0.0)) {
-    answer.status = InstantStatus::kBadInput;
-    return answer;
-  }
+  answer.status = InstantStatus::kBadInput;
+  if (!has_surface || !is_sane(w_g, drive)) return answer;
   const ScaledPush push = scaled(w_g, drive, Vec2::Zero(), surface.c, surface.F);
+  if (!(push.units.rate > 0.0) || !is_within_range(push)) return answer;
   report(push, judge_push(UnitSphere{}, push, nullptr, false), answer);
   return answer;
 }
@@ -133,6 +133,7 @@ double limit_surface_residual(const LimitSurface& surface, const PlanarWrench& w
     }
     return violation;
   }
+  const double unit = std::max(1.0, surface.load(w_g));  // of forces, over F
   double v0 = 0.0;
   double worst = 0.0;
   PlanarWrench push = PlanarWrench::Zero();
@@ -143,17 +144,19 @@ double limit_surface_residual(const LimitSurface& surface, const PlanarWrench& w
     const PusherPoint& point = answer.pusher[i];
     const Vec2 relative = point_velocity(answer.V_HO - drive.V_HP, drive.p_HC[i]);
     const Vec2 rate(drive.n_H.dot(relative), drive.t_H().dot(relative));
-    worst = worse(worst, contact_violation(point, drive.mu, rate, surface.F, v0));
+    worst = worse(worst, contact_violation(point, drive.mu, rate, unit * surface.F, v0));
     const Vec2 f = point.normal_force * drive.n_H + point.tangential_force * drive.t_H();
     push += wrench_of(drive.p_HC[i], f);
   }
-  worst = worse(worst, surface.load(push - answer.w_push));
-  worst = worse(worst, std::abs(answer.push_force - push.head<2>().norm()) / surface.F);
+  worst = worse(worst, surface.load(push - answer.w_push) / unit);
+  worst = worse(worst,
+                std::abs(answer.push_force - push.head<2>().norm()) / (unit * surface.F));
   const Vec3 scaled_twist(answer.V_HO[0], answer.V_HO[1], surface.c * answer.V_HO[2]);
   if (scaled_twist.norm() <= 1e-14 * v0) {
     return worse(worst, surface.load(w_g + push) - 1.0);
   }
-  return worse(worst, surface.load(w_g + push + surface.friction(answer.V_HO)));
+  const PlanarWrench imbalance = w_g + push + surface.friction(answer.V_HO);
+  return worse(worst, surface.load(imbalance) / unit);
 }
 
 }  // namespace prehensile

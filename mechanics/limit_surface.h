@@ -33,7 +33,8 @@ struct LimitSurface {
 PlanarInstant solve_limit_surface(const LimitSurface& surface, const PlanarWrench& w_g,
                                   const PlanarDrive& drive) noexcept;
 
-/// The certificate of such an answer, derived independently of its solver.
+/// The certificate of such an answer, derived independently of its solver: forces in
+/// units of the surface or of gravity, whichever is larger.
 double limit_surface_residual(const LimitSurface& surface, const PlanarWrench& w_g,
                               const PlanarDrive& drive,
                               const PlanarInstant& answer) noexcept;

@@ -191,21 +191,24 @@ RayExit PadFriction::exit_of_pads(const PlanarWrench& w, const PlanarWrench& e,
     }
     if (!better) break;
   }
-  if (here.gap.norm() > 1e-9 * (1.0 + w.norm())) return {};
-  return {true, here.lambda, here.u, {}, step};
+  const bool hit = here.gap.norm() <= 1e-9 * (1.0 + w.norm());
+  return {hit, here.lambda, here.u, {}, step};
 }
 
-/// Friction (a e + b turn of r/reach) at every point is admissible for a + b <= 1; that
-/// ball lies inside S. A support point of S near w settles most other cases.
-bool PadFriction::clearly_holds(const PlanarWrench& w) const noexcept {
-  const auto inner_load = [this](const PlanarWrench& v) {
-    return v.head<2>().norm() + std::abs(v[2]) * reach_;
-  };
-  if (inner_load(w) < 1.0) return true;
-  const PlanarTwist u(w[0], w[1], w[2] / (torque_radius_ * torque_radius_));
-  const PlanarWrench support = resisting_wrench(points(), u);
+/// A force f at every point in proportion to its bound, and a turn of the points, are
+/// admissible together for |f| + |moment| reach <= 1: a ball inside S. So if S contains
+/// `support`, near a multiple of w beyond w itself, it contains w.
+bool PadFriction::proves_held(const PlanarWrench& support,
+                              const PlanarWrench& w) const noexcept {
   const double factor = support.dot(w) / w.squaredNorm();
-  return factor > 1.0 + inner_load(support - factor * w);
+  const PlanarWrench off = support - factor * w;
+  return factor > 1.0 + off.head<2>().norm() + std::abs(off[2]) * reach_;
+}
+
+bool PadFriction::clearly_holds(const PlanarWrench& w) const noexcept {
+  if (w.head<2>().norm() + std::abs(w[2]) * reach_ < 1.0) return true;
+  const PlanarTwist u(w[0], w[1], w[2] / (torque_radius_ * torque_radius_));
+  return proves_held(resisting_wrench(points(), u), w);
 }
 
 bool PadFriction::holds(const PlanarWrench& w, PlanarTwist* unsupported) const noexcept {
@@ -219,7 +222,13 @@ bool PadFriction::holds(const PlanarWrench& w, PlanarTwist* unsupported) const n
   if (clearly_holds(w)) return true;
   const RayExit limit = exit(PlanarWrench::Zero(), w, nullptr);
   if (limit.hit && limit.lambda > 1.0) return true;
-  *unsupported = limit.hit ? limit.u : PlanarTwist(w.normalized());
+  const bool has_twist = !limit.u.isZero(0.0);
+  // Rounding between close points stops the search short of the limit; what it found
+  // still bounds S.
+  if (!limit.hit && has_twist && proves_held(resisting_wrench(points(), limit.u), w)) {
+    return true;
+  }
+  *unsupported = has_twist ? limit.u : PlanarTwist(w.normalized());
   return false;
 }
 

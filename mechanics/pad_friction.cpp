@@ -19,6 +19,8 @@ constexpr int kLineSteps = 200;
 /// point is the pivot: rounding of the twist could not tell.
 constexpr double kMet = 1e-11;
 
+constexpr double kNear = 1e-9;  ///< distance below which points may be merged
+
 }  // namespace
 
 PadFriction::Frame PadFriction::frame_of(const PlanarGrasp& grasp) noexcept {
@@ -68,6 +70,21 @@ PadFriction::PadFriction(const PlanarGrasp& grasp, const Frame& frame,
   for (int j = count_; j < padded_; ++j) x_[j] = y_[j] = b_[j] = 0.0;
   torque_radius_ = is_point ? 1.0 : lever;
   reach_ = std::sqrt(reach);
+}
+
+bool PadFriction::merge_near_points() noexcept {
+  bool merged = false;
+  for (int j = 1; j < count_; ++j) {
+    for (int i = 0; i < j; ++i) {
+      const Vec2 apart = at(j) - at(i);
+      if (apart.isZero(0.0) || apart.norm() > kNear) continue;
+      x_[j] = x_[i];
+      y_[j] = y_[i];
+      merged = true;
+      break;
+    }
+  }
+  return merged;
 }
 
 double PadFriction::dissipation(const PlanarTwist& u) const noexcept {
@@ -205,13 +222,13 @@ int PadFriction::slides(const SlideQuestion& question, int capacity,
     return count;
   }
   const SlideEquation equation{points(), question};
-  if (capacity == 1) {
+  if (capacity <= 2) {
+    int count = 0;
     for (int i = 0; i < guesses; ++i) {
-      if (equation.polish(guess[i]) && question.slips(guess[i])) {
-        roots[0] = guess[i];
-        return 1;
-      }
+      if (equation.polish(guess[i]) && question.slips(guess[i]))
+        roots[count++] = guess[i];
     }
+    if (count > 0) return count;
   }
   return equation.scan(stretched.V.norm(), capacity, roots);
 }

@@ -27,7 +27,14 @@ class PadFriction {
   /// `frame.length` > 0: for a pad that is one point, any length, with `is_point`.
   PadFriction(const PlanarGrasp& grasp, const Frame& frame, bool is_point) noexcept;
 
+  /// Points that rounding can hardly tell apart become one place, because a pivot between
+  /// them would be ill-conditioned. False if there are none. Takes the square of `count`.
+  bool merge_near_points() noexcept;
+
   int count() const { return count_; }
+
+  /// How often friction, with its derivatives or without, has been summed over the pads.
+  int sums() const { return sums_; }
   bool is_point() const { return is_point_; }
   Vec2 at(int j) const { return {x_[j], y_[j]}; }
   double bound(int j) const { return b_[j]; }
@@ -45,8 +52,8 @@ class PadFriction {
   LowestOnLine lowest(const PlanarTwist& u0, const PlanarTwist& d, const PlanarWrench& w,
                       const PlanarTwist* guess) const noexcept;
 
-  /// Roots of a slide. One is sought by Newton's method from the sphere's; several, or
-  /// one that this does not find, by a scan.
+  /// Roots of a slide. Up to two are sought by Newton's method from the sphere's; more,
+  /// or one that this does not find, by a scan.
   int slides(const SlideQuestion& question, int capacity, double* roots) const noexcept;
 
   /// w lies strictly inside S (for a point: within its bound, and through it). Otherwise
@@ -73,7 +80,7 @@ class PadFriction {
   double merged_bound(int j) const noexcept;
 
  private:
-  PadColumns points() const { return {x_.data(), y_.data(), b_.data(), padded_}; }
+  PadColumns points() const { return {x_.data(), y_.data(), b_.data(), padded_, &sums_}; }
   PlanarTwist rotation_about(int j, double omega) const;
   int nearest_to_centre(const PlanarTwist& u) const noexcept;
 
@@ -92,10 +99,12 @@ class PadFriction {
   RayExit exit_of_pads(const PlanarWrench& w, const PlanarWrench& e,
                        const PlanarTwist* guess) const noexcept;
   RayExit exit_of_point(const PlanarWrench& w, const PlanarWrench& e) const noexcept;
+  bool proves_held(const PlanarWrench& support, const PlanarWrench& w) const noexcept;
   bool clearly_holds(const PlanarWrench& w) const noexcept;
 
   int count_ = 0;
   int padded_ = 0;  ///< count_ rounded up to whole lanes; the rest has bound 0
+  mutable int sums_ = 0;
   bool is_point_ = false;
   double torque_radius_ = 1.0;  ///< mean lever
   double reach_ = 1.0;          ///< largest lever

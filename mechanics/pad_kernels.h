@@ -20,6 +20,7 @@ struct PadColumns {
   const double* y;
   const double* b;
   int padded;
+  int* sums;  ///< counts the sums over all points
 };
 
 namespace pad_kernels {
@@ -42,6 +43,7 @@ struct PointLanes {
 
 /// Gradient of D at u.
 inline PlanarWrench resisting_wrench(const PadColumns& pads, const PlanarTwist& u) {
+  ++*pads.sums;
   Lanes fx = Lanes::Zero();
   Lanes fy = Lanes::Zero();
   Lanes m = Lanes::Zero();
@@ -65,6 +67,7 @@ struct LineSlope {
 
 inline LineSlope line_slope(const PadColumns& pads, const PlanarTwist& u,
                             const PlanarTwist& d) {
+  ++*pads.sums;
   Lanes first = Lanes::Zero();
   Lanes second = Lanes::Zero();
   for (int j = 0; j < pads.padded; j += PadColumns::kLanes) {
@@ -87,6 +90,7 @@ struct Curvature {
 };
 
 inline Curvature curvature(const PadColumns& pads, const PlanarTwist& u) {
+  ++*pads.sums;
   Lanes fx = Lanes::Zero();
   Lanes fy = Lanes::Zero();
   Lanes m = Lanes::Zero();

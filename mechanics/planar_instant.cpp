@@ -14,6 +14,9 @@ constexpr double kPointPad = 5e-10;
 /// Finger points slower than this, relative to the pusher, are said to stick.
 constexpr double kSticks = 1e-8;
 
+/// Accelerations this much larger than the pusher's are those of a fall.
+constexpr double kFallsFreely = 1e6;
+
 struct Problem {
   PadFriction pads;
   ScaledPush push;
@@ -101,6 +104,7 @@ void report_newton(const Problem& problem, const NewtonAnswer& newton,
     motion.w += wrench_of(push.p[i], f);
   }
   report(push, motion, answer);
+  answer.evaluations = newton.steps;
   for (int i = 0; i < push.count; ++i) {
     const double bound = push.mu * newton.normal[i];
     ContactMode& mode = answer.pusher[i].mode;
@@ -158,16 +162,32 @@ void solve_inertial(const PlanarGrasp& grasp, Problem& problem,
     return;
   }
   solve_with_newton(problem, M, options, answer);
+  const double rate = std::max(answer.V_HO.head<2>().norm(),
+                               problem.push.units.length * std::abs(answer.V_HO[2]));
+  if (answer.status != InstantStatus::kMoves ||
+      !(rate > kFallsFreely * problem.push.units.rate)) {
+    return;
+  }
+  // The push is lost in the rounding of a fall.
+  answer = PlanarInstant{};
+  answer.status = InstantStatus::kOutOfIterations;
+  PlanarTwist unsupported;
+  if (problem.pads.holds(problem.push.w_g, &unsupported)) return;
+  const Verdict fall = judge_unheld(problem.pads, problem.push, unsupported);
+  if (fall.status == InstantStatus::kDynamic) report(problem.push, fall, answer);
 }
 
-void solve_quasi_static(const PlanarGrasp& grasp, const Problem& problem,
+void solve_quasi_static(const PlanarGrasp& grasp, Problem& problem,
                         const PlanarSolveOptions& options, const PlanarWarmStart* warm,
                         PlanarInstant& answer) {
   Motion known;
   const bool follows =
       warm != nullptr && warm->valid && follow(problem, warm->last, known);
-  const Verdict verdict = judge_push(
-      problem.pads, problem.push, follows ? &known : nullptr, options.probe_multiplicity);
+  Verdict verdict = judge_push(problem.pads, problem.push, follows ? &known : nullptr,
+                               options.probe_multiplicity);
+  if (!usable(verdict.status) && problem.pads.merge_near_points()) {
+    verdict = judge_push(problem.pads, problem.push, nullptr, options.probe_multiplicity);
+  }
   if (verdict.status == InstantStatus::kOutOfIterations) {
     solve_with_newton(problem, Eigen::Matrix3d::Zero(), options, answer);
     if (verdict.has_evidence && answer.status == InstantStatus::kMoves) {
@@ -194,11 +214,16 @@ PlanarInstant solve_planar(const PlanarGrasp& grasp, const PlanarDrive& drive,
     return answer;
   }
   Problem problem = pose(grasp, drive, frame);
+  if (!is_within_range(problem.push)) {
+    answer.status = InstantStatus::kBadInput;
+    return answer;
+  }
   if (grasp.inertia.isZero(0.0)) {
     solve_quasi_static(grasp, problem, options, warm, answer);
   } else {
     solve_inertial(grasp, problem, options, answer);
   }
+  answer.evaluations += problem.pads.sums();
   if (warm != nullptr) {
     warm->valid = usable(answer.status);
     warm->last = answer;

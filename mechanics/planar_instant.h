@@ -31,7 +31,8 @@ struct PlanarWarmStart {
 ///
 /// kSeparated or kHolds where the pusher approaches at no point and the pads hold gravity
 /// (friction may drag the object along as well: probe_multiplicity tells). kBadInput for
-/// no points, bounds all zero or negative, a pusher at rest, numbers that are not finite.
+/// no points, bounds all zero or negative, a pusher at rest, numbers that are not finite
+/// (or whose squares in units of the pads are not).
 /// kJammed does not occur: pads and one flat pusher cannot wedge an object. The
 /// tangential force of a sticking line is determined only as a sum, and shared in
 /// proportion to the normal forces. `iterations` counts the Newton steps of the mode that

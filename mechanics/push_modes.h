@@ -29,7 +29,7 @@ namespace prehensile {
 /// Where the ray w + lambda e, lambda increasing, leaves S; u is the normal there, e.u >
 /// 0.
 struct RayExit {
-  bool hit = false;
+  bool hit = false;  ///< false: none, or not found; then u is where the search ended
   double lambda = 0.0;
   PlanarTwist u = PlanarTwist::Zero();
   Pivot pivot;
@@ -148,10 +148,11 @@ class PushModes {
     const double slide = push_.t.dot(point_velocity(push_.V, push_.p[0]));
     const PlanarTwist base = push_.V - slide * along;
     std::array<double, 4> roots;
-    const int count = body_.slides({base, along, m, target, slide, slip},
-                                   std::min<int>(capacity, roots.size()), roots.data());
+    const int wanted = std::clamp<int>(capacity, 2, roots.size());
+    const int count =
+        body_.slides({base, along, m, target, slide, slip}, wanted, roots.data());
     int accepted = 0;
-    for (int k = 0; k < count; ++k) {
+    for (int k = 0; k < count && accepted < capacity; ++k) {
       Motion& motion = motions[accepted];
       motion = Motion{};
       motion.support = Motion::Support::kBoth;
@@ -167,25 +168,25 @@ class PushModes {
   /// friction cone is the side to which the point slips.
   bool point_moves(int i, Motion& motion) const {
     if (point_sticks(i, nullptr, motion)) return true;
-    const double tangential = push_.t.dot(motion.w.head<2>());
-    const int slip = tangential > 0.0 ? -1 : 1;
-    return point_slips(i, slip, false, nullptr, motion) ||
-           point_slips(i, -slip, false, nullptr, motion);
+    const int slip = push_.t.dot(motion.w.head<2>()) > 0.0 ? -1 : 1;
+    return point_slips(i, slip, false, nullptr, motion);
   }
 
   /// Some motion with an advancing pusher, the likely modes first.
   bool any_motion(Motion& motion) const {
-    if (push_.count == 1) return point_moves(0, motion);
+    if (push_.count == 1) return point_moves(0, motion) || any_slip(0, motion);
     if (both_stick(motion)) return true;
     const double normal = motion.normal[0] + motion.normal[1];
     const int slip = push_.t.dot(motion.w.head<2>()) > 0.0 ? -1 : 1;
     const int loaded = motion.normal[1] > motion.normal[0] ? 1 : 0;
-    const bool pressed = motion.normal[0] >= 0.0 && motion.normal[1] >= 0.0;
-    if (pressed && normal > 0.0 && both_slip(slip, &motion, 1) > 0) return true;
+    const bool pressed =
+        motion.normal[0] >= 0.0 && motion.normal[1] >= 0.0 && normal > 0.0;
+    if (pressed && both_slip(slip, &motion, 1) > 0) return true;
     for (const int i : {loaded, 1 - loaded}) {
       if (push_.approach(i) > 0.0 && point_moves(i, motion)) return true;
     }
-    return both_slip(slip, &motion, 1) > 0 || both_slip(-slip, &motion, 1) > 0;
+    if (!pressed && both_slip(slip, &motion, 1) > 0) return true;
+    return both_slip(-slip, &motion, 1) > 0 || any_slip(0, motion) || any_slip(1, motion);
   }
 
   /// Every motion, without repetition of twists.
@@ -219,6 +220,13 @@ class PushModes {
   }
 
  private:
+  /// Where rounding decides between the sides.
+  bool any_slip(int i, Motion& motion) const {
+    if (!(push_.approach(i) > 0.0)) return false;
+    return point_slips(i, 1, false, nullptr, motion) ||
+           point_slips(i, -1, false, nullptr, motion);
+  }
+
   bool stuck(Motion& motion) const {
     if (motion.pivot.index >= 0) body_.choose_pivot_force(push_, motion);
     return slid(motion);

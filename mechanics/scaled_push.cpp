@@ -19,13 +19,14 @@ double friction_gap(double tangential, double bound, double slip_rate) {
 double put_on_point(const ScaledPush& push, int i, Motion& motion) {
   const Vec2& p = push.p[i];
   const double moment = motion.w[2] - cross(p, motion.w.head<2>());
-  const Vec2 f = motion.w.head<2>() + moment / (1.0 + p.squaredNorm()) * perp(p);
+  const double nearness = 1.0 / (1.0 + p.squaredNorm());
+  const Vec2 f = motion.w.head<2>() + moment * nearness * perp(p);
   motion.w = wrench_of(p, f);
   motion.normal = {0.0, 0.0};
   motion.tangential = {0.0, 0.0};
   motion.normal[i] = push.n.dot(f);
   motion.tangential[i] = push.t.dot(f);
-  return std::abs(moment) / std::sqrt(1.0 + p.squaredNorm());
+  return std::abs(moment) * std::sqrt(nearness);
 }
 
 /// Splits the wrench between the two ends of a line: the line of action of its force
@@ -86,17 +87,26 @@ ScaledPush scaled(const PlanarWrench& w_g, const PlanarDrive& drive, const Vec2&
                   double length, double force) noexcept {
   ScaledPush push;
   push.units = {length, force, contact_rate(drive)};
+  const double per_length = 1.0 / length;
+  const double per_force = 1.0 / force;
+  const double per_rate = 1.0 / push.units.rate;
   push.centre = centre;
   push.count = drive.count;
-  for (int i = 0; i < drive.count; ++i) push.p[i] = (drive.p_HC[i] - centre) / length;
+  for (int i = 0; i < drive.count; ++i) push.p[i] = per_length * (drive.p_HC[i] - centre);
   push.n = drive.n_H;
   push.t = drive.t_H();
   push.mu = drive.mu;
-  const Vec2 v = point_velocity(drive.V_HP, centre) / push.units.rate;
-  push.V = {v.x(), v.y(), drive.V_HP[2] * length / push.units.rate};
-  const Vec2 f = w_g.head<2>() / force;
-  push.w_g = {f.x(), f.y(), w_g[2] / (force * length) - cross(centre / length, f)};
+  const Vec2 v = per_rate * point_velocity(drive.V_HP, centre);
+  push.V = {v.x(), v.y(), drive.V_HP[2] * length * per_rate};
+  const Vec2 f = per_force * w_g.head<2>();
+  push.w_g = {f.x(), f.y(), per_length * (w_g[2] * per_force - cross(centre, f))};
   return push;
+}
+
+bool is_within_range(const ScaledPush& push) noexcept {
+  double sum = push.w_g.squaredNorm() + push.V.squaredNorm();
+  for (int i = 0; i < push.count; ++i) sum += push.p[i].squaredNorm();
+  return std::isfinite(sum);
 }
 
 PlanarTwist twist_in_hand(const ScaledPush& push, const PlanarTwist& u) noexcept {

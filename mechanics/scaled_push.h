@@ -42,6 +42,9 @@ double contact_rate(const PlanarDrive& drive) noexcept;
 ScaledPush scaled(const PlanarWrench& w_g, const PlanarDrive& drive, const Vec2& centre,
                   double length, double force) noexcept;
 
+/// Nothing is so large in these units that its square would overflow.
+bool is_within_range(const ScaledPush& push) noexcept;
+
 /// Back to SI, about the origin of H.
 PlanarTwist twist_in_hand(const ScaledPush& push, const PlanarTwist& u) noexcept;
 PlanarWrench wrench_in_hand(const ScaledPush& push, const PlanarWrench& w) noexcept;

@@ -144,8 +144,8 @@ class Instant {
       found = found || search.solve_otherwise() || search.solve_stubbornly();
       if (found && search.result().v.norm() < kFallsFreely) {
         conclude(search, InstantStatus::kMoves);
-      } else {
-        report_fall(search);
+      } else if (!report_fall(search)) {
+        report_jam(search);
       }
     } else {
       solve_quasi_static(search, found);
@@ -166,7 +166,8 @@ class Instant {
     if (rests) hold = Hold::kHeld;
     if (!found) {
       // Pads that hold an object at rest may lose it while it is pushed.
-      if (hold != Hold::kFalls) report_fall(search);
+      const bool falls = hold != Hold::kFalls && report_fall(search);
+      if (!falls) report_jam(search);
       return;
     }
     InstantStatus status = InstantStatus::kMoves;
@@ -200,26 +201,31 @@ class Instant {
     return true;
   }
 
+  /// Forces that balance each other and take power from the pusher: is it held up?
+  bool report_jam(SpatialSearch& search) {
+    SpatialForces jam;
+    if (!search.find_jam(jam)) return false;
+    answer_.status = InstantStatus::kJammed;
+    report_points(problem_, scaled_, SpatialRates::Zero(), jam, answer_);
+    for (int i = 0; i < answer_.count; ++i) {
+      SpatialPoint& point = answer_.point[i];
+      point.normal_force /= scaled_.units.force;
+      point.tangential_force /= scaled_.units.force;
+      point.spin_moment /= scaled_.units.force;
+    }
+    return true;
+  }
+
   /// A motion was found.
   void conclude(SpatialSearch& search, InstantStatus status) {
-    SpatialForces extra;
-    if (search.result().largest_force > kJamForce && search.find_jam(extra)) {
-      answer_.status = InstantStatus::kJammed;
-      report_points(problem_, scaled_, SpatialRates::Zero(), extra, answer_);
-      for (int i = 0; i < answer_.count; ++i) {
-        SpatialPoint& point = answer_.point[i];
-        point.normal_force /= scaled_.units.force;
-        point.tangential_force /= scaled_.units.force;
-        point.spin_moment /= scaled_.units.force;
-      }
-      return;
-    }
+    if (search.result().largest_force > kJamForce && report_jam(search)) return;
     report_motion(problem_, scaled_, search.result().v, search.forces(), answer_);
     if (status == InstantStatus::kSeparated) status = judge_rest(scaled_, answer_);
     const bool stands = status == InstantStatus::kMoves && !scaled_.has_inertia &&
                         search.is_at_rest() && pads_stick(scaled_, answer_);
     if (stands) status = InstantStatus::kHolds;
     if (status == InstantStatus::kMoves || stands) report_interval(search, status);
+    SpatialForces extra;
     SpatialRates rates;
     if (options_.probe_multiplicity && search.find_other(extra, rates)) {
       status = InstantStatus::kAmbiguous;

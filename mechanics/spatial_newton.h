@@ -2,6 +2,7 @@
 /// mechanics layer.
 #pragma once
 
+#include "mechanics/proximal_iteration.h"
 #include "mechanics/spatial_kernels.h"
 
 namespace prehensile {
@@ -15,14 +16,6 @@ struct NewtonStart {
   double pace = 1.0;                      ///< scales all proximal steps
   bool pads_only = false;                 ///< without the pusher
   double added_mass = 0.0;                ///< on every rate: lets an object fall
-};
-
-struct NewtonResult {
-  bool converged = false;
-  bool runs_away = false;  ///< without inertia, rates grew beyond all bounds
-  SpatialRates v = SpatialRates::Zero();
-  double residual = kNan;      ///< natural map and balance, in units (F0, V0)
-  double largest_force = 0.0;  ///< normal
 };
 
 /// One run. `forces` receives the contact forces, `steps` counts up to `max_steps`.

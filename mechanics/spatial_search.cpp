@@ -16,8 +16,9 @@ constexpr double kIdle = 1e-9;       ///< a pusher that carries less carries not
 constexpr double kFallRate = 10.0;   ///< rates that no pusher or foundation causes
 constexpr double kFallTolerance = 1e-8;  ///< enough for evidence
 constexpr double kOtherMotion = 1e-5;
-constexpr double kJamForce = 1e3;     ///< forces that call for a second look
 constexpr double kJamBalance = 1e-7;  ///< imbalance of unit forces that counts as none
+constexpr int kJamTrials = 12;
+constexpr double kJamShare = 1e-4;  ///< least force of a jam: push rate over compliance
 
 double least_compliance(const ScaledSpatial& problem) {
   double least = std::numeric_limits<double>::infinity();
@@ -327,34 +328,60 @@ bool SpatialSearch::find_other(SpatialForces& forces, SpatialRates& rates) {
   return false;
 }
 
+/// In a jam forces grow like 1 / R, so in units that grow with them compliance stays and
+/// gravity, drive, inertia and preload vanish: the jam is what is left.
 bool SpatialSearch::find_jam(SpatialForces& forces) {
-  ScaledSpatial stiffer = problem_;
-  SpatialForces known = forces_;
-  NewtonStart start = {.v = result_.v, .forces = &known, .r = 0.03};
-  double before = result_.largest_force;
-  for (int trial = 0; trial < 12; ++trial) {
-    for (int k = 0; k < problem_.patch_count; ++k) stiffer.patch[k].R *= 0.1;
-    // The jam's forces at the next compliance, should there be one.
+  double softest = 0.0;
+  for (int k = 0; k < problem_.patch_count; ++k) {
+    softest = std::max(softest, problem_.patch[k].R);
+  }
+  if (softest <= 0.0) return false;
+  if (result_.converged) {
+    SpatialForces known;
     for (int j = 0; j < problem_.padded; ++j) {
-      for (double* f : {&known.n[j], &known.t[j], &known.o[j], &known.s[j]}) *f *= 10.0;
+      known.n[j] = softest * forces_.n[j];
+      known.t[j] = softest * forces_.t[j];
+      known.o[j] = softest * forces_.o[j];
+      known.s[j] = softest * forces_.s[j];
     }
+    return follow_jam(softest, {.v = result_.v, .forces = &known, .r = 0.03}, forces);
+  }
+  // Compliance is of order one here, and little else holds the object.
+  const std::array<NewtonStart, 3> starts = {{{.e = 10.0, .pace = 100.0},
+                                              {.r = 0.03, .e = 10.0, .pace = 100.0},
+                                              {.r = 3.0, .e = 10.0}}};
+  for (const NewtonStart& start : starts) {
+    if (follow_jam(softest, start, forces)) return true;
+  }
+  return false;
+}
+
+bool SpatialSearch::follow_jam(double softest, NewtonStart start, SpatialForces& forces) {
+  ScaledSpatial jam = problem_;
+  for (int k = 0; k < jam.patch_count; ++k) jam.patch[k].R /= softest;
+  SpatialForces known;
+  const double first = start.forces != nullptr ? 1.0 / softest : 100.0;
+  double unit = first;
+  for (int trial = 0; trial < kJamTrials; ++trial, unit *= 10.0) {
+    jam.f = problem_.f / unit;
+    jam.M = problem_.M / unit;
+    for (int j = 0; j < jam.padded; ++j) jam.preload[j] = problem_.preload[j] / unit;
     int steps = 0;
-    const double size = 10.0 * before;
     const NewtonResult next =
-        run_newton(stiffer, start, tolerance_ * size, kBudget, forces, steps);
+        run_newton(jam, start, tolerance_, 2 * kBudget, forces, steps);
     steps_ += steps;
-    if (!next.converged || !(next.largest_force > 5.0 * before)) return false;
-    before = next.largest_force;
-    if (1.0 / before < kJamBalance) {
-      for (int j = 0; j < problem_.padded; ++j) {
+    // Forces that do not grow with their unit are no jam.
+    if (!next.converged || !(next.largest_force > kJamShare)) return false;
+    if (1.0 / (unit * next.largest_force) < kJamBalance) {
+      for (int j = 0; j < jam.padded; ++j) {
         for (double* f : {&forces.n[j], &forces.t[j], &forces.o[j], &forces.s[j]}) {
-          *f /= before;
+          *f /= next.largest_force;
         }
       }
       return true;
     }
     known = forces;
-    start.v = next.v;
+    start = {.v = next.v, .forces = &known, .r = 0.03};
   }
   return false;
 }

@@ -41,7 +41,7 @@ class SpatialSearch {
   bool find_other(SpatialForces& forces, SpatialRates& rates);
 
   /// A set of forces that balance each other, towards which a jam tends as compliance
-  /// vanishes; the largest normal force is 1.
+  /// vanishes; the largest normal force is 1. Starts from the motion found, if any.
   bool find_jam(SpatialForces& forces);
 
   const SpatialForces& forces() const { return forces_; }
@@ -53,6 +53,7 @@ class SpatialSearch {
   bool approach_friction();
   bool approach_compliance();
   bool approach_statics();
+  bool follow_jam(double softest, NewtonStart start, SpatialForces& forces);
 
   const ScaledSpatial& problem_;
   const double tolerance_;

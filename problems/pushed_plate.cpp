@@ -14,6 +14,7 @@ namespace prehensile {
 namespace {
 
 constexpr int kMostPoints = 90;
+constexpr int kFinePoints = 4000;  ///< of the grid that measures a torque radius
 
 /// A square cell of a grid.
 PadCell square_cell(const Vec2& centre, double side) {
@@ -197,12 +198,18 @@ double Plate::torque_radius() const {
 }
 
 Plate uniform_plate(const std::vector<Vec2>& outline, int points) {
-  double side = std::sqrt(properties_of(outline).area / points);
+  const double area = properties_of(outline).area;
+  double side = std::sqrt(area / points);
   Plate plate = over_grid(outline, side);
   while (plate.support.size() > kMostPoints) {
     side *= 1.05;
     plate = over_grid(outline, side);
   }
+  // The load of a cell is farther from the centre than its centroid, on the average.
+  const Plate fine = over_grid(outline, std::sqrt(area / kFinePoints));
+  const double spread = fine.torque_radius() / plate.torque_radius();
+  const Vec2 centre = plate.centre();
+  for (Vec2& p : plate.support) p = centre + spread * (p - centre);
   return plate;
 }
 

@@ -1,0 +1,62 @@
+/// Runs of the spatial solvers on random instants, measured and judged alike: what the
+/// benchmarks of spatial instants share.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "benchmarks/natural_map.h"
+#include "benchmarks/siconos_peer.h"
+#include "mechanics/spatial_instant.h"
+#include "mechanics/spatial_reference.h"
+#include "problems/random_spatial.h"
+
+namespace prehensile::benchmarks {
+
+inline constexpr double kSuccess = 1e-6;  ///< residual of a run that counts as solved
+inline constexpr int kSeconds = 20;       ///< that a peer may take
+
+/// One solver on one instant.
+struct SpatialRun {
+  const char* solver;
+  int generators = 0;  ///< 0: circular
+  int points = 0;
+  double acceleration = 0.0;
+  int instance = 0;
+  const char* reference_status = "";
+  bool asked = false;  ///< the exact solver has one answer
+  bool success = false;
+  double force_error = kNan;  ///< of the push force, in capacities of the pads
+  double twist_error = kNan;  ///< in push rates, turns by 1 cm
+  double residual = kNan;
+  double time_us = kNan;
+  int iterations = 0;
+};
+
+/// What an answer is compared with.
+struct SpatialTruth {
+  InstantStatus status = InstantStatus::kNotRun;
+  SpatialTwist V_HO = SpatialTwist::Zero();
+  SpatialWrench w_push = SpatialWrench::Zero();
+};
+
+/// An instant posed with its units: 1 cm, the grip force or the weight, and the rate of
+/// the push.
+struct SpatialQuestion {
+  SpatialProblem problem;
+  SpatialScales units;
+  double capacity;  ///< of both pads [N]
+  SpatialTruth truth;
+};
+
+/// `problem` with its exact answer as truth.
+SpatialQuestion posed(const SpatialProblem& problem);
+
+/// `batches`: see time_us.
+SpatialRun exact_run(const SpatialQuestion& q, int batches,
+                     const SpatialSolveOptions& options = {});
+SpatialRun pivoting_run(const SpatialQuestion& q, int generators);
+SpatialRun ipopt_run(const SpatialQuestion& q, int generators);
+SpatialRun siconos_run(const SpatialQuestion& q, SiconosSolver solver);
+
+}  // namespace prehensile::benchmarks

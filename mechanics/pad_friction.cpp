@@ -216,4 +216,21 @@ int PadFriction::slides(const SlideQuestion& question, int capacity,
   return equation.scan(stretched.V.norm(), capacity, roots);
 }
 
+bool PadFriction::nearest_slide(const SlideQuestion& question,
+                                double& root) const noexcept {
+  const SlideEquation equation{points(), question};
+  if (question.V[2] != 0.0 && equation.polish(root)) return true;
+  SlideQuestion stretched = question;
+  stretched.V[2] *= torque_radius_;
+  stretched.start = -question.slip * std::numeric_limits<double>::infinity();
+  double guess[2];
+  const int guesses = slides_on_sphere(stretched, guess);
+  for (int i = 0; i < guesses; ++i) {
+    if (question.V[2] != 0.0 && !equation.polish(guess[i])) continue;
+    root = guess[i];
+    return true;
+  }
+  return false;
+}
+
 }  // namespace prehensile

@@ -6,36 +6,17 @@
 /// II.6.
 #pragma once
 
-#include <array>
+#include <limits>
 
-#include "scene/frames.h"
+#include "primitives/dense_step.h"
 
 namespace prehensile {
-
-struct DormandPrinceStep {
-  double s = 0.0;             ///< where it starts
-  double h = 0.0;             ///< its length
-  Vec2 y, y_end;              ///< state at both ends
-  Vec2 rate, rate_end;        ///< rate at both ends; rate_end starts the next step
-  Vec2 error;                 ///< order 5 less order 4 at the end
-  Vec2 probe, probe_rate;     ///< a small change of y_end and what it does to the rate
-  std::array<Vec2, 3> dense;  ///< coefficients of the continuous extension
-
-  /// State at the share x in [0, 1] of the step.
-  Vec2 at(double x) const {
-    const double z = 1.0 - x;
-    return y + x * (y_end - y + z * (dense[0] + x * (dense[1] + z * dense[2])));
-  }
-
-  /// Rate of the continuous extension in the middle of the step.
-  Vec2 middle_rate() const { return (y_end - y + 0.25 * dense[1]) / h; }
-};
 
 /// Fills `step` from step.s, step.h, step.y and step.rate. `rate(s, y, out)` returns
 /// false where there is none; then the step is not valid and the result is that s,
 /// otherwise infinity. The last call of `rate` is the one at the end of the step.
 template <class Rate>
-double dormand_prince(const Rate& rate, DormandPrinceStep& step) {
+double dormand_prince(const Rate& rate, DenseStep& step) {
   const double s = step.s;
   const double h = step.h;
   const Vec2& y = step.y;

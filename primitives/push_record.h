@@ -35,7 +35,8 @@ class PushRecord {
   void add_slip(double length) { transition_.slipped += length; }
 
   /// The transition; one that was not stopped has been completed.
-  Transition finish(const Grasp& end, double s, double error_estimate, int instants);
+  Transition finish(const Grasp& end, double s, double error_estimate, int instants,
+                    int checks = 0);
 
  private:
   double certificate_tolerance_;

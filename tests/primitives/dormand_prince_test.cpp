@@ -16,8 +16,8 @@ bool spiral(double s, const Vec2& y, Vec2& rate) {
   return true;
 }
 
-DormandPrinceStep step_from(double s, const Vec2& y, double h) {
-  DormandPrinceStep step;
+DenseStep step_from(double s, const Vec2& y, double h) {
+  DenseStep step;
   step.s = s;
   step.h = h;
   step.y = y;
@@ -38,15 +38,15 @@ TEST(DormandPrince, FifthOrder) {
 }
 
 TEST(DormandPrince, ErrorEstimateIsOfFifthOrderAndLargerThanTheError) {
-  const DormandPrinceStep wide = step_from(0.4, exact(0.4), 0.1);
-  const DormandPrinceStep narrow = step_from(0.4, exact(0.4), 0.05);
+  const DenseStep wide = step_from(0.4, exact(0.4), 0.1);
+  const DenseStep narrow = step_from(0.4, exact(0.4), 0.05);
   EXPECT_NEAR(std::log2(wide.error.norm() / narrow.error.norm()), 5.0, 0.3);
   EXPECT_GT(wide.error.norm(), (wide.y_end - exact(0.5)).norm());
 }
 
 TEST(DormandPrince, ContinuousExtensionIsOfFourthOrder) {
   const auto worst = [](double h) {
-    const DormandPrinceStep step = step_from(0.4, exact(0.4), h);
+    const DenseStep step = step_from(0.4, exact(0.4), h);
     double error = 0.0;
     for (const double x : {0.1, 0.35, 0.5, 0.77, 0.9}) {
       error = std::max(error, (step.at(x) - exact(0.4 + x * h)).norm());
@@ -59,7 +59,7 @@ TEST(DormandPrince, ContinuousExtensionIsOfFourthOrder) {
 }
 
 TEST(DormandPrince, EndRateStartsTheNextStepAndTheProbeShowsTheGrowth) {
-  const DormandPrinceStep step = step_from(0.4, exact(0.4), 0.01);
+  const DenseStep step = step_from(0.4, exact(0.4), 0.01);
   Vec2 rate;
   spiral(0.41, step.y_end, rate);
   EXPECT_EQ(step.rate_end, rate);
@@ -73,7 +73,7 @@ TEST(DormandPrince, SaysWhereThereIsNoRate) {
     rate.setZero();
     return s < 0.5;
   };
-  DormandPrinceStep step;
+  DenseStep step;
   step.h = 1.0;
   step.y.setZero();
   step.rate.setZero();

@@ -24,7 +24,8 @@ struct MotionInMode {
   PlanarTwist V_HO = PlanarTwist::Zero();
   std::array<double, 2> normal_force{0.0, 0.0};      ///< [N]
   std::array<double, 2> tangential_force{0.0, 0.0};  ///< [N] along t
-  bool held = false;  ///< the pads alone hold gravity, and the pusher advances somewhere
+  bool held = false;      ///< the pads alone hold gravity
+  bool advances = false;  ///< the pusher does, somewhere
 };
 
 /// Quasi-static. `guess`: a twist near the answer, any scale for a slipping point, or

@@ -46,10 +46,10 @@ MotionInMode motion_in_mode(const Body& body, const ScaledPush& push,
   for (int i = 0; i < push.count; ++i) {
     answer.normal_force[i] = motion.normal[i] * units.force;
     answer.tangential_force[i] = motion.tangential[i] * units.force;
-    answer.held = answer.held || push.approach(i) > kGrazing;
+    answer.advances = answer.advances || push.approach(i) > kGrazing;
   }
   PlanarTwist unsupported;
-  answer.held = answer.held && body.holds(push.w_g, &unsupported);
+  answer.held = body.holds(push.w_g, &unsupported);
   return answer;
 }
 

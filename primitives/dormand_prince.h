@@ -1,14 +1,11 @@
-/// One step of the Dormand-Prince pair of order 5(4) with its continuous extension of
-/// order 4, for two coordinates.
+/// One step of the Dormand-Prince pair of order 5(4) for two coordinates.
 ///
-/// Source: Dormand and Prince, J. Comput. Appl. Math. 6 (1980) 19-26; continuous
-/// extension as in Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I,
-/// II.6.
+/// Source: Dormand and Prince, J. Comput. Appl. Math. 6 (1980) 19-26.
 #pragma once
 
 #include <limits>
 
-#include "primitives/dense_step.h"
+#include "primitives/integration_step.h"
 
 namespace prehensile {
 
@@ -16,7 +13,7 @@ namespace prehensile {
 /// false where there is none; then the step is not valid and the result is that s,
 /// otherwise infinity. The last call of `rate` is the one at the end of the step.
 template <class Rate>
-double dormand_prince(const Rate& rate, DenseStep& step) {
+double dormand_prince(const Rate& rate, BaseStep& step) {
   const double s = step.s;
   const double h = step.h;
   const Vec2& y = step.y;
@@ -38,6 +35,7 @@ double dormand_prince(const Rate& rate, DenseStep& step) {
   if (no_rate(1.0, slope6, k6)) return s + h;
   const Vec2 slope7 = 35.0 / 384 * k1 + 500.0 / 1113 * k3 + 125.0 / 192 * k4 -
                       2187.0 / 6784 * k5 + 11.0 / 84 * k6;
+  step.ends = true;
   if (no_rate(1.0, slope7, k7)) return s + h;
 
   step.y_end = y + h * slope7;
@@ -46,12 +44,6 @@ double dormand_prince(const Rate& rate, DenseStep& step) {
                     17253.0 / 339200 * k5 + 22.0 / 525 * k6 - 1.0 / 40 * k7);
   step.probe = h * (slope7 - slope6);
   step.probe_rate = k7 - k6;
-  step.dense[0] = h * k1 - h * slope7;
-  step.dense[1] = h * slope7 - h * k7 - step.dense[0];
-  step.dense[2] =
-      h * (-12715105075.0 / 11282082432 * k1 + 87487479700.0 / 32700410799 * k3 -
-           10690763975.0 / 1880347072 * k4 + 701980252875.0 / 199316789632 * k5 -
-           1453857185.0 / 822651844 * k6 + 69997945.0 / 29380423 * k7);
   return std::numeric_limits<double>::infinity();
 }
 

@@ -15,6 +15,7 @@ namespace prehensile {
 namespace {
 
 using enum PushInstant::Search;
+using InMode = PushInstant::InMode;
 
 constexpr double kNever = StepControl::kNever;
 
@@ -30,7 +31,7 @@ constexpr double kResolution = 1e-11;
 
 /// Longest integrated step over the wanted spacing of checks: the mode is looked at in
 /// eight places of it, at most 0.3 of its length apart.
-constexpr double kStepPerCheck = 8.0;
+constexpr double kStepPerCheck = 20.0;
 
 /// Shortest step of a ride over that spacing, where nothing is sure.
 constexpr double kLeastRide = 0.5;
@@ -38,25 +39,40 @@ constexpr double kLeastRide = 0.5;
 /// Spacing over that spacing of the search for other motions where the pusher recedes.
 constexpr double kProbeSpacing = 4.0;
 
-/// Margin below which a stage counts as beyond the contact mode; stages are not accurate.
-constexpr double kStageMargin = -1e-3;
+/// Powers of the step length with which the errors of the methods fall.
+constexpr int kOrder = 6;
+constexpr int kStiffOrder = 5;
 
 /// Step times rate of decay beyond which an explicit step is at the border of its
 /// stability, and below which a stiff one is not needed.
 constexpr double kStiff = 2.5;
 constexpr double kNotStiff = 1.0;
 
+/// Share of its length by which a step that is to end at an event goes beyond it.
+constexpr double kBeyond = 0.02;
+
+/// Where in a step the defect of its polynomial changes fastest.
+constexpr double kSteepest = 0.09;
+
+/// A step may be continued beyond its end up to this many times its length, where its
+/// error is larger by this factor.
+constexpr double kContinued = 2.5;
+constexpr double kContinuationError = 1e3;
+
 /// Small changes for derivatives of the rate: share of the push, angle.
 constexpr double kNudge = 1e-6;
 
 /// Relative error of a rate: the modes are solved to rounding.
-constexpr double kRounding = 1e-13;
+constexpr double kRounding = 1e-14;
 
 /// Bound on the exponent of the growth of errors over one step.
 constexpr double kMostGrowth = 10.0;
 
 /// Weight of an angle for pads that cannot exert a torque, over the size of the object.
 constexpr double kLeastReach = 0.01;
+
+constexpr Obstacle kUnheldPush{TransitionStatus::kFalls, EventKind::kGravityLost,
+                               "the grasp alone does not hold gravity"};
 
 /// The first change within a step: where, as a share of the step, and which limit; none:
 /// a change of contact mode.
@@ -96,14 +112,18 @@ class PushRun {
 
   bool ride();
   double ride_length() const;
+  bool is_close(double at);
   bool integrate();
-  RateDerivatives derivatives();
+  RateDerivatives derivatives(const BaseStep& base);
   bool rate_in_mode(double s, const Vec2& q, Vec2& out);
-  bool middle_agrees();
+  bool rate_at_end(double s, const Vec2& q, Vec2& out);
+  void look_inside();
   double length_of(const Vec2& error) const;
-  double growth() const;
+  double growth(double share) const;
   void watch_stiffness(bool accepted);
   void block(double at);
+  void look_at_block();
+  void stop_at_block(double beyond);
   void accept(double share);
   void trace_inside(double share);
 
@@ -139,15 +159,19 @@ class PushRun {
   double margin_ = 0.0;  ///< of the contact mode at s_
   double error_ = 0.0;   ///< [m] estimate for the pose at s_
 
-  DenseStep step_;
-  Vec2 defect_ = Vec2::Zero();  ///< of the step's middle
+  DoubledStep step_;
+  double inside_error_ = 0.0;   ///< [m] of the state where an event was found
   double step_error_ = 0.0;     ///< [m]
   double middle_margin_ = 0.0;  ///< of the contact mode
   double least_margin_ = 0.0;   ///< of the contact mode over its stages
+  double least_at_ = 0.0;       ///< [share of the push] where that is
+  double dip_at_ = kNever;      ///< [share of the step] a place inside, beyond the mode
+  double dip_margin_ = 0.0;
   Obstacle obstacle_;
   Regime regime_ = Regime::kStick;
   int attempts_ = 0;
   const bool traced_;
+  bool landed_ = false;  ///< the step was made to end at its event
   bool stiff_ = false;
   double stiffness_ =
       0.0;  ///< of the last stiff step: its length times the rate of decay
@@ -183,13 +207,25 @@ void PushRun::advance() {
   if (!(rides() ? ride() : integrate())) return;
 
   const Crossing crossing = first_crossing();
-  if (crossing.at > 1.0) return accept(1.0);
+  if (crossing.at > 1.0) {
+    landed_ = false;
+    return accept(1.0);
+  }
   const double location = control_.location();
   if (!crossing.limit && crossing.at == 0.0 && step_.h > 4.0 * location) {
     // Right after an event the new mode may last for less than this step.
     return control_.land(0.25 * step_.h);
   }
-  if (crossing.at > 0.0) accept(crossing.at);
+  if (crossing.at > 0.0) {
+    if (!rides() && !is_close(crossing.at)) {
+      // Again, with an end a little beyond the event: there the state is as good as the
+      // step.
+      landed_ = true;
+      return control_.land((1.0 + kBeyond) * crossing.at * step_.h);
+    }
+    accept(crossing.at);
+  }
+  landed_ = false;
   if (!record_.stopped()) pass(crossing);
 }
 
@@ -200,19 +236,42 @@ bool PushRun::ride() {
   step_.y_end = q_;
   step_.rate_end = step_.rate = Vec2::Zero();
   step_.error.setZero();
-  step_.dense.fill(Vec2::Zero());
+  step_.y_middle = q_;
+  step_.rate_middle = Vec2::Zero();
   step_error_ = 0.0;
-  least_margin_ = middle_margin_ = kNever;
+  middle_margin_ = dip_at_ = kNever;
   const double end = s_ + step_.h;
-  if (instant_.check_ride(seat_, end) && mode_margin() < -instant_.noise()) return true;
-  const bool solve = step_.h == 1.0 - s_ || traced_ || instant_.recedes();
+  const InMode found = instant_.check_ride(seat_, end);
+  if (found == InMode::kMoves && mode_margin() < -instant_.noise()) return true;
+  const bool last = step_.h == 1.0 - s_ || traced_ || instant_.recedes();
   obstacle_ = {};
-  if (solve || !instant_.check_ride(seat_, end)) {
+  if (found == InMode::kUnheld) {
+    obstacle_ = kUnheldPush;
+  } else if (last || found == InMode::kUnknown) {
     obstacle_ = instant_.solve(seat_, end, q_, kAllMotions);
   }
   if (!obstacle_) return true;
   block(end);
   return false;
+}
+
+/// Whether the state inside the step is as good as steps have to be. What the polynomial
+/// lacks is a constant times the square of its distance from the nodes, x (x - 1/2)
+/// (x - 1); the constant is read off the rate where the slope of that is greatest.
+bool PushRun::is_close(double at) {
+  const double x = at < 0.5 ? kSteepest : 1.0 - kSteepest;
+  const auto node = [](double z) { return z * (z - 0.5) * (z - 1.0); };
+  const double slope =
+      2.0 * std::abs(node(x)) * (0.5 - 3.0 * kSteepest * (1.0 - kSteepest));
+  Vec2 rate;
+  instant_.set_aside();
+  const bool found = rate_in_mode(s_ + x * step_.h, step_.at(x), rate);
+  instant_.bring_back();
+  inside_error_ = 0.0;
+  if (!found) return true;
+  inside_error_ =
+      step_.h * length_of(rate - step_.rate_at(x)) * node(at) * node(at) / slope;
+  return landed_ || inside_error_ <= control_.allowed(step_.h);
 }
 
 /// As long as nothing can happen: bounds on the pusher's forces, and on how far the
@@ -232,81 +291,113 @@ double PushRun::ride_length() const {
 /// Computes the step and its end; false if there is no motion or the error is too large.
 bool PushRun::integrate() {
   step_.h = control_.next(s_, kNever);
-  least_margin_ = kNever;
-  const auto rate = [this](double s, const Vec2& q, Vec2& out) {
-    const bool found = rate_in_mode(s, q, out);
-    if (found) least_margin_ = std::min(least_margin_, mode_margin());
-    return found;
+  const double middle = s_ + 0.5 * step_.h;
+  least_margin_ = dip_at_ = kNever;
+  const auto rate = [this, middle](double s, const Vec2& q, Vec2& out) {
+    if (!rate_in_mode(s, q, out)) return false;
+    if (s == middle) middle_margin_ = mode_margin();
+    if (const double margin = mode_margin(); margin < least_margin_) {
+      least_margin_ = margin;
+      least_at_ = s;
+    }
+    return true;
   };
-  const double failed_at =
-      stiff_ ? rosenbrock(rate, derivatives(), step_) : dormand_prince(rate, step_);
+  const auto end_rate = [this](double s, const Vec2& q, Vec2& out) {
+    return rate_at_end(s, q, out);
+  };
+  double failed_at = kNever;
+  if (stiff_) {
+    RateDerivatives at_start;
+    double known_at = kNever;
+    const auto method = [&](const auto& f, BaseStep& base) {
+      if (base.s != known_at) at_start = derivatives(base);
+      known_at = base.s;
+      return rosenbrock(f, at_start, base);
+    };
+    failed_at = doubled(method, rate, end_rate, kStiffOrder, step_);
+  } else {
+    const auto method = [](const auto& f, BaseStep& base) {
+      return dormand_prince(f, base);
+    };
+    failed_at = doubled(method, rate, end_rate, kOrder, step_);
+  }
   if (failed_at != kNever) {
     block(failed_at);
     return false;
   }
-  if (!middle_agrees()) return false;
-  step_error_ = std::max(length_of(step_.error), length_of(defect_));
-  const bool accepted = control_.accepts(step_.h, step_error_, stiff_ ? 4 : 5);
+  step_error_ = length_of(step_.error);
+  const bool accepted =
+      control_.accepts(step_.h, step_error_, stiff_ ? kStiffOrder : kOrder);
   watch_stiffness(accepted);
-  if (!accepted || mode_margin() < -instant_.noise()) return accepted;
-  // The mode holds at the end: what is more, the instant has this answer and no other.
-  const double end = s_ + step_.h;
-  obstacle_ = instant_.solve(seat_, end, step_.y_end, kAllMotions);
-  if (!obstacle_) return true;
-  block(end);
-  return false;
+  if (accepted) look_inside();
+  return accepted;
+}
+
+/// At the end of a step the instant is asked whether its answer is that of the mode, and
+/// no other.
+bool PushRun::rate_at_end(double s, const Vec2& q, Vec2& out) {
+  obstacle_ = instant_.solve(seat_, s, q, kAllMotions);
+  if (obstacle_ || mode_margin() < -instant_.noise()) {
+    // Beyond the end of the mode, if the mode says so.
+    const Obstacle met = obstacle_;
+    instant_.set_aside();
+    const bool beyond = instant_.solve_in_mode(seat_, s, q, regime_) == InMode::kMoves &&
+                        mode_margin() < -instant_.noise();
+    if (!beyond) instant_.bring_back();
+    if (!beyond && met) return false;
+    obstacle_ = {};
+  }
+  out = instant_.rate();
+  return true;
 }
 
 /// Rate within the contact mode, also beyond its end; where the mode alone does not tell
 /// the motion, that of the instant.
 bool PushRun::rate_in_mode(double s, const Vec2& q, Vec2& out) {
-  if (!instant_.solve_in_mode(seat_, s, q, regime_)) {
-    obstacle_ = instant_.solve(seat_, s, q);
+  const InMode found = instant_.solve_in_mode(seat_, s, q, regime_);
+  if (found != InMode::kMoves) {
+    obstacle_ = found == InMode::kUnheld ? kUnheldPush : instant_.solve(seat_, s, q);
     if (obstacle_) return false;
   }
   out = instant_.rate();
   return true;
 }
 
-RateDerivatives PushRun::derivatives() {
+RateDerivatives PushRun::derivatives(const BaseStep& base) {
   RateDerivatives found;
-  const double nudge = std::min(kNudge, 0.5 * step_.h);
+  const double nudge = std::min(kNudge, 0.5 * base.h);
   Vec2 rate;
-  if (rate_in_mode(s_ + nudge, q_, rate)) found.by_s = (rate - rate_) / nudge;
+  if (rate_in_mode(base.s + nudge, base.y, rate)) found.by_s = (rate - base.rate) / nudge;
   const bool slips = regime_ != Regime::kStick;
   const bool tilts = seat_.kind != SeatKind::kFlush;
   for (const int k : {0, 1}) {
     if (!(k == 0 ? slips : tilts)) continue;
-    Vec2 q = q_;
+    Vec2 q = base.y;
     const double change = k == 0 ? kNudge * model_.L : kNudge;
     q[k] += change;
-    if (rate_in_mode(s_, q, rate)) found.by_state.col(k) = (rate - rate_) / change;
+    if (!rate_in_mode(base.s, q, rate)) continue;
+    found.by_state.col(k) = (rate - base.rate) / change;
   }
-  stiffness_ = step_.h * found.by_state.cwiseAbs().maxCoeff();
+  stiffness_ = base.h * found.by_state.cwiseAbs().maxCoeff();
   return found;
 }
 
-/// Looks into the middle of the step, where the stages may have missed a kink or jump of
-/// the rate: its defect joins the error. A contact mode that some stage has left and that
-/// holds in the middle and at the end calls for a shorter step.
-bool PushRun::middle_agrees() {
+/// Where a stage seemed to leave a contact mode that holds in the middle and at the end
+/// of the step, the place itself is looked at.
+void PushRun::look_inside() {
+  if (least_margin_ >= -instant_.noise() || middle_margin_ < -instant_.noise() ||
+      mode_margin() < -instant_.noise()) {
+    return;
+  }
+  const double x = (least_at_ - s_) / step_.h;
   instant_.set_aside();
-  const double middle = s_ + 0.5 * step_.h;
   Vec2 rate;
-  if (!rate_in_mode(middle, step_.at(0.5), rate)) {
-    block(middle);
-    instant_.bring_back();
-    return false;
+  const bool found = rate_in_mode(least_at_, step_.at(x), rate);
+  if (found && mode_margin() < -instant_.noise()) {
+    dip_at_ = x;
+    dip_margin_ = mode_margin();
   }
-  defect_ = step_.h * (rate - step_.middle_rate());
-  middle_margin_ = mode_margin();
   instant_.bring_back();
-  const bool holds = std::min(middle_margin_, mode_margin()) >= -instant_.noise();
-  if (!holds || least_margin_ >= kStageMargin || step_.h <= control_.location()) {
-    return true;
-  }
-  control_.land(0.5 * step_.h);
-  return false;
 }
 
 /// What an error of the coordinates at the end of the step makes of the pose [m].
@@ -326,14 +417,59 @@ void PushRun::watch_stiffness(bool accepted) {
   }
   const Vec2 lengths(1.0, reach_);
   const double apart = step_.probe.cwiseProduct(lengths).norm();
-  const double change = step_.h * step_.probe_rate.cwiseProduct(lengths).norm();
+  const double change = 0.5 * step_.h * step_.probe_rate.cwiseProduct(lengths).norm();
   stiffness_seen_ = change > kStiff * apart ? stiffness_seen_ + 1 : 0;
   stiff_ = stiffness_seen_ >= 2;
 }
 
-/// There is no motion at `at`.
+/// There is no motion at `at`: steps close in on it.
 void PushRun::block(double at) {
-  if (control_.is_at_block(s_, at)) stop(instant_.explained(obstacle_));
+  if (control_.is_at_block(s_, at)) stop_at_block(s_ + control_.location());
+}
+
+/// After a step towards a place without motion: is that place still there, now that it is
+/// nearer? If the step is good enough to be continued up to it, the end of the motion is
+/// located on its continuation.
+void PushRun::look_at_block() {
+  const double x = (control_.blocked() - step_.s) / step_.h;
+  if (x > kContinued) return;
+  double high = x;
+  const auto goes_on = [this](double share) {
+    Vec2 rate;
+    return rate_in_mode(step_.s + share * step_.h, step_.at(share), rate);
+  };
+  instant_.set_aside();
+  if (goes_on(high)) {
+    control_.unblock();
+  } else if (kContinuationError * step_error_ < options_.tolerance) {
+    double low = 1.0;
+    const double resolution = control_.location() / step_.h;
+    bool lawful = true;
+    while (lawful && high - low > resolution) {
+      const double share = 0.5 * (low + high);
+      const bool found = goes_on(share);
+      lawful = !found || mode_margin() >= -instant_.noise();
+      (found ? low : high) = share;
+    }
+    const double end = step_.s + low * step_.h;
+    const PathLimits::Values left = limits(end, step_.at(low));
+    if (lawful && *std::min_element(left.begin(), left.end()) >= 0.0) {
+      record_.add_slip(std::abs(step_.at(low)[0] - q_[0]));
+      q_ = step_.at(low);
+      s_ = end;
+      return stop_at_block(step_.s + high * step_.h);
+    }
+  }
+  instant_.bring_back();
+}
+
+/// Ends the push where its motion ends; `beyond` is past that, and has the reason.
+void PushRun::stop_at_block(double beyond) {
+  error_ += (beyond - s_) * instant_.speed();
+  if (obstacle_.status == TransitionStatus::kFalls) return record_.stop(obstacle_, s_);
+  const Vec2 q = rides() ? q_ : Vec2(q_ + (beyond - s_) * rate_);
+  const Obstacle met = instant_.solve(seat_, beyond, q, kAllMotions);
+  record_.stop(instant_.explained(met ? met : obstacle_), s_);
 }
 
 /// Takes the step up to this share.
@@ -342,8 +478,8 @@ void PushRun::accept(double share) {
   const Vec2 q = whole ? step_.y_end : step_.at(share);
   if (!rides()) {
     const double noise = kRounding * instant_.speed() * step_.h;
-    const double error = whole ? step_error_ : length_of(defect_);
-    error_ = error_ * growth() + error + noise;
+    error_ = error_ * growth(share) + noise +
+             (whole ? step_error_ : step_error_ * share + inside_error_);
     record_.add_slip(std::abs(q[0] - q_[0]));
   }
   if (traced_) trace_inside(share);
@@ -354,16 +490,18 @@ void PushRun::accept(double share) {
   rate_ = instant_.rate();
   margin_ = mode_margin();
   if (instant_.is_solved()) record_.add(instant_.sample(s_, psi_));
+  const bool looks = !rides() && control_.blocked() != kNever && !record_.stopped();
+  if (looks && mode_margin() >= -instant_.noise()) look_at_block();
 }
 
 /// How much of an error made before this step is there after it, by the change of rate
 /// between two states at its end. A pusher that trails the pads is unstable.
-double PushRun::growth() const {
+double PushRun::growth(double share) const {
   const Vec2 lengths(1.0, reach_);
   const Vec2 apart = step_.probe.cwiseProduct(lengths);
   const Vec2 rate = step_.probe_rate.cwiseProduct(lengths);
   if (!(apart.norm() > 1e3 * kRounding * instant_.speed() * step_.h)) return 1.0;
-  return std::exp(std::clamp(step_.h * apart.dot(rate) / apart.squaredNorm(),
+  return std::exp(std::clamp(share * step_.h * apart.dot(rate) / apart.squaredNorm(),
                              -kMostGrowth, kMostGrowth));
 }
 
@@ -398,6 +536,9 @@ Crossing PushRun::first_crossing() {
   if (middle_margin_ < -noise) {
     high = 0.5;
     margin_at_high = middle_margin_;
+  } else if (dip_at_ < 1.0) {
+    high = dip_at_;
+    margin_at_high = dip_margin_;
   }
   if (margin_at_high >= -noise) return first;
   double low = 0.0;
@@ -410,8 +551,8 @@ Crossing PushRun::first_crossing() {
   const auto margin = [&](double x) {
     const double s = s_ + x * step_.h;
     Vec2 rate;
-    const bool found =
-        rides() ? instant_.check_ride(seat_, s) : rate_in_mode(s, step_.at(x), rate);
+    const bool found = rides() ? instant_.check_ride(seat_, s) == InMode::kMoves
+                               : rate_in_mode(s, step_.at(x), rate);
     // Where no motion exists the mode has certainly changed.
     return found ? mode_margin() : -1.0;
   };

@@ -123,22 +123,22 @@ Obstacle PushInstant::solve(const Seat& seat, double s, const Vec2& q,
   return {};
 }
 
-bool PushInstant::solve_in_mode(const Seat& seat, double s, const Vec2& q,
-                                Regime regime) noexcept {
+PushInstant::InMode PushInstant::solve_in_mode(const Seat& seat, double s, const Vec2& q,
+                                               Regime regime) noexcept {
   pose_question(seat, s, q);
   ++count_;
   return take_mode(seat, regime);
 }
 
-bool PushInstant::check_ride(const Seat& seat, double s) noexcept {
+PushInstant::InMode PushInstant::check_ride(const Seat& seat, double s) noexcept {
   pose_question(seat, s, Vec2::Zero());
   ++checks_;
   return take_mode(seat, Regime::kStick);
 }
 
-bool PushInstant::take_mode(const Seat& seat, Regime regime) noexcept {
+PushInstant::InMode PushInstant::take_mode(const Seat& seat, Regime regime) noexcept {
   Answer& now = answers_[now_];
-  if (now.grasp.count == 0) return false;
+  if (now.grasp.count == 0) return InMode::kUnknown;
   ContactModeOfPush mode;
   if (seat.kind == SeatKind::kFlush) mode.load = ContactModeOfPush::Load::kBoth;
   if (regime != Regime::kStick) mode.slip = regime == Regime::kSlipPlus ? 1 : -1;
@@ -147,14 +147,15 @@ bool PushInstant::take_mode(const Seat& seat, Regime regime) noexcept {
       is_ellipsoid()
           ? solve_limit_surface_in_mode(model_->surface(), now.grasp.w_g, now.drive, mode)
           : solve_planar_in_mode(now.grasp, now.drive, mode, guess);
-  if (!motion.exists || !motion.held) return false;
+  if (motion.exists && !motion.held) return InMode::kUnheld;
+  if (!motion.exists || !motion.advances) return InMode::kUnknown;
   now.solved = false;
   now.V_HO = motion.V_HO;
   now.load = motion.normal_force;
   now.tangential_force = motion.tangential_force[0] + motion.tangential_force[1];
   if (warm_.valid) warm_.last.V_HO = now.V_HO;
   read(seat, now);
-  return true;
+  return InMode::kMoves;
 }
 
 double PushInstant::ride_lasts(double most) const noexcept {

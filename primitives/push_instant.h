@@ -36,12 +36,13 @@ class PushInstant {
                  Search search = Search::kOneMotion) noexcept;
 
   /// The instant in a prescribed contact mode, lawful or not: smooth beyond the end of
-  /// the mode. False where the mode has no motion, or motions need not be unique because
-  /// the pads alone do not hold gravity or the pusher does not advance.
-  bool solve_in_mode(const Seat& seat, double s, const Vec2& q, Regime regime) noexcept;
+  /// the mode. `kUnknown` where the mode has no motion or the pusher does not advance;
+  /// `kUnheld` where the pads alone do not hold gravity, so that no push goes on there.
+  enum class InMode { kMoves, kUnknown, kUnheld };
+  InMode solve_in_mode(const Seat& seat, double s, const Vec2& q, Regime regime) noexcept;
 
   /// The same for a ride, where nothing needs to be solved: not counted as an instant.
-  bool check_ride(const Seat& seat, double s) noexcept;
+  InMode check_ride(const Seat& seat, double s) noexcept;
 
   /// Share of the push over which the ride that was checked last is sure to go on, at
   /// most `most`.
@@ -99,7 +100,7 @@ class PushInstant {
   const Answer& answer() const { return answers_[now_]; }
   double friction_left(const Answer& answer) const;
   void pose_question(const Seat& seat, double s, const Vec2& q) noexcept;
-  bool take_mode(const Seat& seat, Regime regime) noexcept;
+  InMode take_mode(const Seat& seat, Regime regime) noexcept;
   void read(const Seat& seat, Answer& answer) const noexcept;
   bool is_ellipsoid() const { return friction_ == FrictionModel::kEllipsoid; }
 

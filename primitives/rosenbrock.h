@@ -1,6 +1,6 @@
 /// One step of the Rosenbrock method RODAS of order 4(3), for two coordinates: stiffly
 /// accurate and L-stable, so a state that swings quickly to where it trails costs no
-/// short steps. With its continuous extension of order 3.
+/// short steps.
 ///
 /// Source: Hairer and Wanner, Solving Ordinary Differential Equations II, IV.7 and IV.10.
 #pragma once
@@ -9,7 +9,7 @@
 
 #include <Eigen/LU>
 
-#include "primitives/dense_step.h"
+#include "primitives/integration_step.h"
 
 namespace prehensile {
 
@@ -22,7 +22,7 @@ struct RateDerivatives {
 /// Fills `step` from step.s, step.h, step.y and step.rate; `rate` and the result as for
 /// dormand_prince. The last call of `rate` is the one at the end of the step.
 template <class Rate>
-double rosenbrock(const Rate& rate, const RateDerivatives& derivatives, DenseStep& step) {
+double rosenbrock(const Rate& rate, const RateDerivatives& derivatives, BaseStep& step) {
   constexpr double kGamma = 0.25;
   const double s = step.s;
   const double h = step.h;
@@ -60,17 +60,11 @@ double rosenbrock(const Rate& rate, const RateDerivatives& derivatives, DenseSte
                                   6.058818238834054 * u5) /
                                      h);
   step.y_end = y6 + u6;
+  step.ends = true;
   if (!rate(s + h, step.y_end, step.rate_end)) return s + h;
   step.error = u6;
   step.probe = u6;
   step.probe_rate = step.rate_end - f;
-  step.dense[0] = 10.12623508344586 * u1 - 7.487995877610167 * u2 -
-                  34.80091861555747 * u3 - 7.992771707568823 * u4 +
-                  1.025137723295662 * u5;
-  step.dense[1] = -0.6762803392801253 * u1 + 6.087714651680015 * u2 +
-                  16.43084320892478 * u3 + 24.76722511418386 * u4 -
-                  6.594389125716872 * u5;
-  step.dense[2] = Vec2::Zero();
   return std::numeric_limits<double>::infinity();
 }
 

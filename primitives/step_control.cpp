@@ -27,8 +27,12 @@ double StepControl::next(double s, double cap) {
   return h >= left * (1.0 - 1e-12) ? left : h;
 }
 
+double StepControl::allowed(double h) const {
+  return tolerance_ * std::max(h, kLeastShare);
+}
+
 bool StepControl::accepts(double h, double error, int order) {
-  const double allowed = tolerance_ * std::max(h, kLeastShare);
+  const double allowed = this->allowed(h);
   const bool accepted = error <= allowed || h <= location_;
   // Stages of a step that was too long may have met a block where there is none.
   if (!accepted) blocked_ = kNever;

@@ -24,6 +24,9 @@ class StepControl {
   /// errors add up to it.
   bool accepts(double h, double error, int order = 5);
 
+  /// The error that a step of length h may have [m].
+  double allowed(double h) const;
+
   /// The next step shall have this length.
   void land(double length) { landing_ = length; }
 
@@ -33,6 +36,10 @@ class StepControl {
 
   /// The push has come to s.
   void passed(double s);
+
+  /// Where no motion was found, and not yet that there is one; infinity: nowhere.
+  double blocked() const { return blocked_; }
+  void unblock() { blocked_ = kNever; }
 
  private:
   double tolerance_;

@@ -24,6 +24,7 @@ struct MotionInMode {
   PlanarTwist V_HO = PlanarTwist::Zero();
   std::array<double, 2> normal_force{0.0, 0.0};      ///< [N]
   std::array<double, 2> tangential_force{0.0, 0.0};  ///< [N] along t
+  int pivot = -1;         ///< pad point about which the object turns; -1: none
   bool held = false;      ///< the pads alone hold gravity
   bool advances = false;  ///< the pusher does, somewhere
 };

@@ -42,6 +42,7 @@ MotionInMode motion_in_mode(const Body& body, const ScaledPush& push,
     return answer;
   }
   answer.V_HO = twist_in_hand(push, motion.u);
+  answer.pivot = motion.pivot.index;
   answer.exists = answer.V_HO.allFinite();
   for (int i = 0; i < push.count; ++i) {
     answer.normal_force[i] = motion.normal[i] * units.force;

@@ -31,6 +31,7 @@ struct DoubledStep {
   Vec2 y, y_middle, y_end;           ///< state
   Vec2 rate, rate_middle, rate_end;  ///< rate
   Vec2 error;                        ///< of y_end, made in this step
+  bool is_smooth = true;             ///< the rate had no kink that errors would show
   Vec2 probe, probe_rate;            ///< a change of state and what it does to the rate
 
   /// State at the share x in [0, 1] of the step: of order 5, by the states and rates at
@@ -71,12 +72,13 @@ struct DoubledStep {
 /// `end_rate` is called last, at the end of the step. `order` is the power of its length
 /// with which the error of a base step falls.
 ///
-/// Where the rate has a kink the error falls more slowly: the embedded errors of the base
-/// steps tell how slowly, and the error is scaled by what they say.
+/// Where the rate has a kink the error falls more slowly, which the embedded errors of
+/// the base steps show: then the difference itself counts, or those errors.
 template <class Method, class Rate, class EndRate>
 double doubled(const Method& method, const Rate& rate, const EndRate& end_rate, int order,
                DoubledStep& step) {
   constexpr double kDone = std::numeric_limits<double>::infinity();
+  constexpr double kOfEmbedded = 0.1;  // a step's own error is seldom less
   BaseStep whole;
   whole.s = step.s;
   whole.h = step.h;
@@ -102,10 +104,15 @@ double doubled(const Method& method, const Rate& rate, const EndRate& end_rate, 
   step.rate_end = last.rate_end;
   step.probe = last.probe;
   step.probe_rate = last.probe_rate;
-  const double most = static_cast<double>(1 << (order - 1)) - 1.0;
-  const double fall = whole.error.norm() / (first.error.norm() + last.error.norm());
-  const double scale = std::clamp(2.0 * fall - 1.0, 1.0, most);
-  step.error = (whole.y_end - step.y_end) / (scale > 0.0 ? scale : most);
+  // Smooth: the embedded errors of the halves together are 2^(order - 2) times smaller.
+  const double embedded = first.error.norm() + last.error.norm();
+  const Vec2 difference = whole.y_end - step.y_end;
+  const double size = difference.norm();
+  step.is_smooth = whole.error.norm() >= 0.4 * (1 << (order - 2)) * embedded;
+  const double scale = step.is_smooth ? 1.0 / ((1 << (order - 1)) - 1.0) : 1.0;
+  const double least = (step.is_smooth ? kOfEmbedded : 1.0) * embedded;
+  step.error = size > 0.0 ? Vec2(std::max(scale, least / size) * difference)
+                          : Vec2(first.error + last.error);
   return kDone;
 }
 

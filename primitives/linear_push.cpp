@@ -51,6 +51,17 @@ constexpr double kNotStiff = 1.0;
 /// Share of its length by which a step that is to end at an event goes beyond it.
 constexpr double kBeyond = 0.02;
 
+/// Reported over computed error of a step: of smooth steps, of others, and where the
+/// object begins or ceases to turn about a pad point.
+constexpr double kDoubt = 1.5;
+constexpr double kDoubtOfRough = 10.0;
+constexpr double kDoubtOfKink = 20.0;
+
+/// A place in a step that is far from all its stages, and the share of the change that
+/// its rate would make over the step that counts as error.
+constexpr double kUnseen = 0.35;
+constexpr double kOfUnseen = 0.02;
+
 /// Where in a step the defect of its polynomial changes fastest.
 constexpr double kSteepest = 0.09;
 
@@ -118,6 +129,7 @@ class PushRun {
   bool rate_in_mode(double s, const Vec2& q, Vec2& out);
   bool rate_at_end(double s, const Vec2& q, Vec2& out);
   void look_inside();
+  void doubt_step(bool kink);
   double length_of(const Vec2& error) const;
   double growth(double share) const;
   void watch_stiffness(bool accepted);
@@ -292,10 +304,14 @@ double PushRun::ride_length() const {
 bool PushRun::integrate() {
   step_.h = control_.next(s_, kNever);
   const double middle = s_ + 0.5 * step_.h;
+  int low_pivot = 99, high_pivot = -2;
   least_margin_ = dip_at_ = kNever;
-  const auto rate = [this, middle](double s, const Vec2& q, Vec2& out) {
+  const auto rate = [this, middle, &low_pivot, &high_pivot](double s, const Vec2& q,
+                                                            Vec2& out) {
     if (!rate_in_mode(s, q, out)) return false;
     if (s == middle) middle_margin_ = mode_margin();
+    low_pivot = std::min(low_pivot, instant_.pivot());
+    high_pivot = std::max(high_pivot, instant_.pivot());
     if (const double margin = mode_margin(); margin < least_margin_) {
       least_margin_ = margin;
       least_at_ = s;
@@ -329,8 +345,24 @@ bool PushRun::integrate() {
   const bool accepted =
       control_.accepts(step_.h, step_error_, stiff_ ? kStiffOrder : kOrder);
   watch_stiffness(accepted);
-  if (accepted) look_inside();
-  return accepted;
+  if (!accepted) return false;
+  doubt_step(low_pivot != high_pivot);
+  look_inside();
+  return true;
+}
+
+/// What the step's error may be, with what its computation cannot see: a kink between
+/// the stages, which a place that no stage looked at may show, and the random size of the
+/// error where there is one.
+void PushRun::doubt_step(bool kink) {
+  step_error_ *= kink ? kDoubtOfKink : step_.is_smooth ? kDoubt : kDoubtOfRough;
+  instant_.set_aside();
+  Vec2 rate;
+  if (rate_in_mode(s_ + kUnseen * step_.h, step_.at(kUnseen), rate)) {
+    const double lacks = step_.h * length_of(rate - step_.rate_at(kUnseen));
+    step_error_ = std::max(step_error_, kOfUnseen * lacks);
+  }
+  instant_.bring_back();
 }
 
 /// At the end of a step the instant is asked whether its answer is that of the mode, and
@@ -453,7 +485,13 @@ void PushRun::look_at_block() {
     }
     const double end = step_.s + low * step_.h;
     const PathLimits::Values left = limits(end, step_.at(low));
+    Vec2 rate = Vec2::Zero();
+    const bool found = rate_in_mode(end, step_.at(low), rate);
+    const double lacks = length_of(rate - step_.rate_at(low));
+    const double continued = (low - 1.0) * step_.h * lacks;
+    lawful = lawful && found && continued <= control_.allowed(step_.h);
     if (lawful && *std::min_element(left.begin(), left.end()) >= 0.0) {
+      error_ += continued;
       record_.add_slip(std::abs(step_.at(low)[0] - q_[0]));
       q_ = step_.at(low);
       s_ = end;

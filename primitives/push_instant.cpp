@@ -150,6 +150,7 @@ PushInstant::InMode PushInstant::take_mode(const Seat& seat, Regime regime) noex
   if (motion.exists && !motion.held) return InMode::kUnheld;
   if (!motion.exists || !motion.advances) return InMode::kUnknown;
   now.solved = false;
+  now.pivot = motion.pivot;
   now.V_HO = motion.V_HO;
   now.load = motion.normal_force;
   now.tangential_force = motion.tangential_force[0] + motion.tangential_force[1];

@@ -64,6 +64,10 @@ class PushInstant {
   /// The last answer is that of `solve`, not of a mode.
   bool is_solved() const { return answer().solved; }
 
+  /// Pad point about which the object turns in the last answer of a mode; -1: none. The
+  /// rate has a kink where that changes.
+  int pivot() const { return answer().pivot; }
+
   /// Of the last answer.
   Vec2 rate() const { return {answer().slip, answer().tilt_rate}; }
   ModeMargin margin(const Seat& seat, Regime regime) const;
@@ -89,6 +93,7 @@ class PushInstant {
     PlanarDrive drive;
     PlanarInstant instant;  ///< if `solved`
     bool solved = false;
+    int pivot = -1;
     PlanarTwist V_HO = PlanarTwist::Zero();
     std::array<double, 2> load{0.0, 0.0};  ///< [N] normal, of each end
     double slip = 0.0;       ///< [m] per unit of s, of the object along the pusher

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -7,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/commands.h"
+#include "apps/grip_report.h"
 #include "apps/json_number.h"
 #include "apps/plan_report.h"
 #include "apps/push_options.h"
@@ -25,8 +27,11 @@ struct Options {
   std::string kind = "push";
   double travel_mm = 10.0;
   double turn_deg = 0.0;
+  double bend_deg = 0.0;
   double tolerance_um = 1.0;
   int points = 16;
+  bool grip_range = false;
+  double grip_tolerance_mm = 1.0;
 };
 
 Push make_push(const Options& options, const Model& model, int contact) {
@@ -45,8 +50,12 @@ Push make_push(const Options& options, const Model& model, int contact) {
   if (options.kind == "pivot")
     return Pivot{.contact = contact, .place = place, .turn = turn};
   if (options.kind == "roll") return Roll{.contact = contact, .travel = travel};
-  return LinearPush{
-      .contact = contact, .place = place, .e = e, .travel = travel, .turn = turn};
+  return LinearPush{.contact = contact,
+                    .place = place,
+                    .e = e,
+                    .travel = travel,
+                    .turn = turn,
+                    .bend = kRadPerDeg * options.bend_deg};
 }
 
 std::string describe(const Model& model, const Options& options,
@@ -120,11 +129,27 @@ nlohmann::ordered_json to_json(const Transition& transition,
   return out;
 }
 
+int run_grip_range(const Options& options, const Model& model, const Push& push) {
+  GripRangeOptions wanted;
+  wanted.tolerance = 1e-3 * options.grip_tolerance_mm;
+  wanted.transition.tolerance =
+      std::min(1e-6 * options.tolerance_um, 0.01 * wanted.tolerance);
+  const GripRange range =
+      grip_range(model, chosen_grasp(model, options.push), push, wanted);
+  if (options.scene.json) {
+    std::printf("%s\n", to_json(range).dump(2).c_str());
+  } else {
+    std::fputs(describe(model, range).c_str(), stdout);
+  }
+  return range.found ? kDone : kNegative;
+}
+
 int run(const Options& options) {
   const SceneFile file = read_scene(options.scene.file, options.scene.overrides);
   const Model model = prepare(file.scene, {.points_per_pad = options.points});
   const int contact = chosen_contact(model, options.push);
   const Push push = make_push(options, model, contact);
+  if (options.grip_range) return run_grip_range(options, model, push);
   std::vector<Sample> trace;
   const Transition transition = apply(model, chosen_grasp(model, options.push), push,
                                       {.tolerance = 1e-6 * options.tolerance_um}, &trace);
@@ -154,12 +179,25 @@ Command add_query_push(CLI::App& query) {
       ->check(CLI::Range(-3600.0, 3600.0))
       ->capture_default_str();
   command
+      .add_option("--bend-deg", options->bend_deg,
+                  "by which the direction turns along the push (push only); the negative "
+                  "of --turn-deg: a screw")
+      ->check(CLI::Range(-3600.0, 3600.0))
+      ->capture_default_str();
+  command
       .add_option("--tolerance-um", options->tolerance_um,
                   "accepted error of the end pose")
       ->check(CLI::Range(1e-6, 1e3))
       ->capture_default_str();
   command.add_option("--points", options->points, "contact points per pad")
       ->check(CLI::IsMember({1, 4, 8, 16, 32, 64}))
+      ->capture_default_str();
+  command.add_flag("--grip-range", options->grip_range,
+                   "instead: the grip forces with which this push ends where it should");
+  command
+      .add_option("--grip-tolerance-mm", options->grip_tolerance_mm,
+                  "how far from there it may end (--grip-range)")
+      ->check(CLI::Range(1e-6, 1e3))
       ->capture_default_str();
   command.footer(
       "Example:\n  prehensile query push problems/paper/slide.yaml --kind slide "

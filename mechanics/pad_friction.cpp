@@ -225,12 +225,16 @@ bool PadFriction::nearest_slide(const SlideQuestion& question,
   stretched.start = -question.slip * std::numeric_limits<double>::infinity();
   double guess[2];
   const int guesses = slides_on_sphere(stretched, guess);
+  bool found = false;
+  double nearest = 0.0;
   for (int i = 0; i < guesses; ++i) {
     if (question.V[2] != 0.0 && !equation.polish(guess[i])) continue;
-    root = guess[i];
-    return true;
+    if (!found || std::abs(guess[i] - root) < std::abs(nearest - root))
+      nearest = guess[i];
+    found = true;
   }
-  return false;
+  root = nearest;
+  return found;
 }
 
 }  // namespace prehensile

@@ -26,13 +26,18 @@ struct BaseStep {
 };
 
 struct DoubledStep {
-  double s = 0.0;                    ///< where it starts
-  double h = 0.0;                    ///< its length
-  Vec2 y, y_middle, y_end;           ///< state
-  Vec2 rate, rate_middle, rate_end;  ///< rate
-  Vec2 error;                        ///< of y_end, made in this step
-  bool is_smooth = true;             ///< the rate had no kink that errors would show
-  Vec2 probe, probe_rate;            ///< a change of state and what it does to the rate
+  double s = 0.0;         ///< where it starts
+  double h = 0.0;         ///< its length
+  Vec2 y = Vec2::Zero();  ///< state at start, middle and end
+  Vec2 y_middle = Vec2::Zero();
+  Vec2 y_end = Vec2::Zero();
+  Vec2 rate = Vec2::Zero();  ///< rate there
+  Vec2 rate_middle = Vec2::Zero();
+  Vec2 rate_end = Vec2::Zero();
+  Vec2 error = Vec2::Zero();  ///< of y_end, made in this step
+  bool is_smooth = true;      ///< the rate had no kink that errors would show
+  Vec2 probe = Vec2::Zero();  ///< a change of state and what it does to the rate
+  Vec2 probe_rate = Vec2::Zero();
 
   /// State at the share x in [0, 1] of the step: of order 5, by the states and rates at
   /// start, middle and end.
@@ -70,13 +75,14 @@ struct DoubledStep {
 /// Fills `step` from step.s, step.h, step.y and step.rate. `method(rate, base)` fills a
 /// base step and returns the s at which there is no rate, or infinity; so does this.
 /// `end_rate` is called last, at the end of the step. `order` is the power of its length
-/// with which the error of a base step falls.
+/// with which the error of a base step falls, `is_stiff` whether that holds only for its
+/// slow part.
 ///
 /// Where the rate has a kink the error falls more slowly, which the embedded errors of
 /// the base steps show: then the difference itself counts, or those errors.
 template <class Method, class Rate, class EndRate>
 double doubled(const Method& method, const Rate& rate, const EndRate& end_rate, int order,
-               DoubledStep& step) {
+               bool is_stiff, DoubledStep& step) {
   constexpr double kDone = std::numeric_limits<double>::infinity();
   constexpr double kOfEmbedded = 0.1;  // a step's own error is seldom less
   BaseStep whole;
@@ -109,8 +115,14 @@ double doubled(const Method& method, const Rate& rate, const EndRate& end_rate, 
   const Vec2 difference = whole.y_end - step.y_end;
   const double size = difference.norm();
   step.is_smooth = whole.error.norm() >= 0.4 * (1 << (order - 2)) * embedded;
-  const double scale = step.is_smooth ? 1.0 / ((1 << (order - 1)) - 1.0) : 1.0;
-  const double least = (step.is_smooth ? kOfEmbedded : 1.0) * embedded;
+  double scale = step.is_smooth ? 1.0 / ((1 << (order - 1)) - 1.0) : 1.0;
+  double least = (step.is_smooth ? kOfEmbedded : 1.0) * embedded;
+  if (is_stiff && !step.is_smooth) {
+    // The order of a stiff part falls to two; its embedded error says little.
+    scale = 1.0 / 3.0;
+    least = 0.0;
+    step.is_smooth = true;
+  }
   step.error = size > 0.0 ? Vec2(std::max(scale, least / size) * difference)
                           : Vec2(first.error + last.error);
   return kDone;

@@ -163,9 +163,11 @@ double PushInstant::ride_lasts(double most) const noexcept {
   const Answer& now = answer();
   // The ellipsoid, and pads that do not turn, resist with a constant wrench in P: loads
   // are linear in the share, so both ends tell.
-  if (is_ellipsoid() || push_.turn == 0.0) return most;
+  if (push_.bend == 0.0 && (is_ellipsoid() || push_.turn == 0.0)) return most;
+  if (is_ellipsoid()) return 0.0;
   const double cone = contact_->mu * now.normal_force - std::abs(now.tangential_force);
-  return sure_to_last(now.grasp, now.drive, push_.turn, {now.load, cone}, most);
+  return sure_to_last(now.grasp, now.drive, push_.turn, push_.travel * push_.bend,
+                      {now.load, cone}, most);
 }
 
 bool PushInstant::recedes() const { return recedes_somewhere(answer().drive); }

@@ -28,6 +28,9 @@ class PushRecord {
   /// than there is room for is stopped.
   void add(EventKind kind, double s);
 
+  /// Forgets the last event, which turned out not to be one.
+  void take_back() { --transition_.event_count; }
+
   void stop(const Obstacle& obstacle, double s);
   bool stopped() const { return transition_.status != TransitionStatus::kNotRun; }
 

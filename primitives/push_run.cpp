@@ -1,6 +1,7 @@
 #include "primitives/push_run.h"
 
 #include <cmath>
+#include <utility>
 
 namespace prehensile {
 namespace {
@@ -178,10 +179,25 @@ void PushRun::change_mode() {
 }
 
 void PushRun::take_regime(Regime regime) {
+  // A mode that is left at once for the one before was never taken: where a stiff motion
+  // settles, its slip is rounding of the state times a large rate.
+  const bool returns =
+      regime == regime_before_ && s_ - regime_since_ <= control_.location();
+  regime_before_ = regime_;
+  regime_since_ = s_;
   regime_ = regime;
-  stiff_ = false;
-  stiffness_seen_ = 0;
+  was_stiff_ = std::exchange(stiff_, returns && was_stiff_);
+  stiffness_seen_ = stiff_ ? 2 : 0;
   margin_ = mode_margin();
+  if (returns) {
+    regime_since_ = -1.0;
+    record_.take_back();
+    if (++returns_ > kMostReturns) {
+      record_.stop({TransitionStatus::kIterationLimit, {}, "the contact mode alternates"},
+                   s_);
+    }
+    return;
+  }
   record_.add(regime == Regime::kStick ? EventKind::kStick : EventKind::kSlip, s_);
 }
 
@@ -190,7 +206,8 @@ void PushRun::take_seat(const Seat& seat, EventKind event) {
   q_ = Vec2::Zero();
   record_.add(event, s_);
   if (!solve_here()) return;
-  regime_ = instant_.regime();
+  regime_ = regime_before_ = instant_.regime();
+  regime_since_ = -1.0;
   margin_ = mode_margin();
 }
 

@@ -67,6 +67,9 @@ class PushRun {
     return std::min(1.0, (is_smooth ? 20.0 : 10.0) * options.max_step);
   }
 
+  /// So often may a regime be left at once for the one before.
+  static constexpr int kMostReturns = 32;
+
   /// Relative error of a rate: the modes are solved to rounding.
   static constexpr double kRounding = 1e-14;
 
@@ -141,6 +144,10 @@ class PushRun {
   int attempts_ = 0;
   const bool traced_;
   bool landed_ = false;  ///< the step was made to end at its event
+  Regime regime_before_ = Regime::kStick;
+  double regime_since_ = -1.0;  ///< share of the push at which the regime was taken
+  int returns_ = 0;             ///< how often a regime was left at once
+  bool was_stiff_ = false;      ///< when the regime before was left
   bool stiff_ = false;
   double stiffness_ =
       0.0;  ///< of the last stiff step: its length times the rate of decay

@@ -72,12 +72,12 @@ bool PushRun::integrate() {
       known_at = base.s;
       return rosenbrock(f, at_start, base);
     };
-    failed_at = doubled(method, rate, end_rate, kStiffOrder, step_);
+    failed_at = doubled(method, rate, end_rate, kStiffOrder, true, step_);
   } else {
     const auto method = [](const auto& f, BaseStep& base) {
       return dormand_prince(f, base);
     };
-    failed_at = doubled(method, rate, end_rate, kOrder, step_);
+    failed_at = doubled(method, rate, end_rate, kOrder, false, step_);
   }
   if (failed_at != kNever) {
     block(failed_at);

@@ -15,14 +15,14 @@ struct Loss {
 };
 
 Loss most_loss(const PlanarGrasp& grasp, const PlanarDrive& drive, double turn,
-               double share) {
+               double curve, double share) {
   const double length = (drive.p_HC[1] - drive.p_HC[0]).norm();
   Loss loss;
   for (int j = 0; j < grasp.count; ++j) {
     const Vec2 p(grasp.x[j], grasp.y[j]);
     const double speed = point_velocity(drive.V_HP, p).norm();
     // In P the velocity of a pad point turns with the pads about the finger axis.
-    const double change = turn * turn * p.norm() * share;
+    const double change = (turn * turn * p.norm() + std::abs(curve)) * share;
     const double turned =
         change < speed ? std::min(2.0, 2.0 * change / (2.0 * speed - change)) : 2.0;
     const double moved = (speed + 0.5 * change) * share;
@@ -45,10 +45,11 @@ bool lasts(const RideMargin& margin, const Loss& loss, double mu) {
 }  // namespace
 
 double sure_to_last(const PlanarGrasp& grasp, const PlanarDrive& drive, double turn,
-                    const RideMargin& margin, double most) noexcept {
+                    double curve, const RideMargin& margin, double most) noexcept {
   double share = most;
   for (int i = 0; i < kHalvings; ++i) {
-    if (lasts(margin, most_loss(grasp, drive, turn, share), drive.mu)) return share;
+    if (lasts(margin, most_loss(grasp, drive, turn, curve, share), drive.mu))
+      return share;
     share *= 0.6;
   }
   return 0.0;

@@ -34,9 +34,17 @@ Crossing PushRun::first_crossing() {
   for (int i = 0; i < PathLimits::kCount; ++i) {
     if (at_end[i] >= -kRoundOff) continue;
     const auto limit = [&](double x) { return limits(s_ + x * step_.h, step_.at(x))[i]; };
-    const double at = at_start[i] <= 0.0 ? 0.0
-                                         : falling_root(limit, 0.0, at_start[i], 1.0,
-                                                        at_end[i], kResolution);
+    // A seat begins on its limit: does the step first leave it?
+    double low = 0.0;
+    double at_low = at_start[i];
+    for (const double x : {1e-6, 1e-3, 0.05, 0.5}) {
+      if (at_low > 0.0) break;
+      low = x;
+      at_low = limit(x);
+    }
+    const double at = at_low <= 0.0
+                          ? 0.0
+                          : falling_root(limit, low, at_low, 1.0, at_end[i], kResolution);
     if (at < first.at) first = {at, static_cast<Limit>(i)};
   }
   const double noise = instant_.noise();

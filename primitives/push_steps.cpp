@@ -19,6 +19,9 @@ constexpr int kStiffOrder = 5;
 constexpr double kStiff = 2.5;
 constexpr double kNotStiff = 1.0;
 
+/// Longest step with an overhanging pad over the wanted spacing of checks.
+constexpr double kOverhangStep = 4.0;
+
 /// Allowed over computed error of a step: smooth, and with a kink.
 constexpr double kDoubt = 1.5;
 constexpr double kRoughness = 3.0;
@@ -44,7 +47,9 @@ constexpr double kContraction = 0.2;
 
 /// Computes the step and its end; false if there is no motion or the error is too large.
 bool PushRun::integrate() {
-  step_.h = control_.next(s_, kNever);
+  // The points of a pad that overhangs move over it, with a kink now and then.
+  const bool is_smooth = whole_ || options_.friction_model == FrictionModel::kEllipsoid;
+  step_.h = control_.next(s_, is_smooth ? kNever : kOverhangStep * options_.max_step);
   const double middle = s_ + 0.5 * step_.h;
   int low_pivot = 99, high_pivot = -2;
   least_margin_ = dip_at_ = kNever;

@@ -39,12 +39,20 @@ int run(int argc, char** argv) {
   const Command check = add_check(app);
   const Command instant = add_query_instant(query);
   const Command push = add_query_push(query);
+  const Command sweep = add_query_sweep(query);
+  const Command cone = add_query_cone(query);
+  const Command spread = add_query_spread(query);
+  const Command contact = add_query_contact(query);
   const Command inspect = add_inspect(app);
   const std::vector<std::pair<const CLI::App*, Command>> commands = {
       {app.get_subcommand("plan"), plan},
       {app.get_subcommand("check"), check},
       {query.get_subcommand("instant"), instant},
       {query.get_subcommand("push"), push},
+      {query.get_subcommand("sweep"), sweep},
+      {query.get_subcommand("cone"), cone},
+      {query.get_subcommand("spread"), spread},
+      {query.get_subcommand("contact"), contact},
       {app.get_subcommand("inspect"), inspect}};
   try {
     app.parse(argc, argv);

@@ -69,6 +69,59 @@ Grasp chosen_grasp(const Model& model, const PushOptions& options) {
   return grasp;
 }
 
+void add_path_options(CLI::App& command, PathOptions& options) {
+  command
+      .add_option("--kind", options.kind, "slide, pivot, roll, or push: the general one")
+      ->check(CLI::IsMember({"slide", "pivot", "roll", "push"}))
+      ->capture_default_str();
+  command.add_option("--travel-mm", options.travel_mm, "of the pusher (not for pivot)")
+      ->check(CLI::Range(-1e4, 1e4))
+      ->capture_default_str();
+  command.add_option("--turn-deg", options.turn_deg, "of the pusher (pivot and push)")
+      ->check(CLI::Range(-3600.0, 3600.0))
+      ->capture_default_str();
+  command
+      .add_option("--bend-deg", options.bend_deg,
+                  "by which the direction turns along the push (push only); the negative "
+                  "of --turn-deg: a screw")
+      ->check(CLI::Range(-3600.0, 3600.0))
+      ->capture_default_str();
+  command
+      .add_option("--tolerance-um", options.tolerance_um,
+                  "accepted error of the end pose")
+      ->check(CLI::Range(1e-6, 1e3))
+      ->capture_default_str();
+  command.add_option("--points", options.points, "contact points per pad")
+      ->check(CLI::IsMember({1, 4, 8, 16, 32, 64}))
+      ->capture_default_str();
+}
+
+Push chosen_push(const Model& model, int contact, const PushOptions& options,
+                 const PathOptions& path) {
+  const double place = 1e-3 * options.place_mm;
+  const double travel = 1e-3 * path.travel_mm;
+  if (travel < 0.0 && path.kind != "roll") {
+    throw BadInput(
+        text("--travel-mm %g: expected at least 0 (turn the direction instead)",
+             path.travel_mm));
+  }
+  const double turn = kRadPerDeg * path.turn_deg;
+  const Vec2 e = chosen_direction(model, contact, options);
+  if (path.kind == "slide") {
+    return Slide{.contact = contact, .place = place, .e = e, .travel = travel};
+  }
+  if (path.kind == "pivot") {
+    return Pivot{.contact = contact, .place = place, .turn = turn};
+  }
+  if (path.kind == "roll") return Roll{.contact = contact, .travel = travel};
+  return LinearPush{.contact = contact,
+                    .place = place,
+                    .e = e,
+                    .travel = travel,
+                    .turn = turn,
+                    .bend = kRadPerDeg * path.bend_deg};
+}
+
 Vec2 chosen_direction(const Model& model, int contact, const PushOptions& options) {
   return rotated(kRadPerDeg * options.direction_deg, model.contacts[contact].n);
 }

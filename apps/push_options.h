@@ -6,6 +6,7 @@
 
 #include "apps/commands.h"
 #include "mechanics/model.h"
+#include "primitives/push.h"
 
 namespace prehensile::apps {
 
@@ -24,5 +25,20 @@ Grasp chosen_grasp(const Model& model, const PushOptions& options);
 
 /// Unit direction in O.
 Vec2 chosen_direction(const Model& model, int contact, const PushOptions& options);
+
+/// How far a push goes, and how it is followed.
+struct PathOptions {
+  std::string kind = "push";
+  double travel_mm = 10.0;
+  double turn_deg = 0.0;
+  double bend_deg = 0.0;
+  double tolerance_um = 1.0;
+  int points = 16;
+};
+void add_path_options(CLI::App& command, PathOptions& options);
+
+/// Throws BadInput for a path that the kind does not allow.
+Push chosen_push(const Model& model, int contact, const PushOptions& options,
+                 const PathOptions& path);
 
 }  // namespace prehensile::apps

@@ -1,8 +1,6 @@
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <memory>
-#include <numbers>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -19,48 +17,17 @@
 namespace prehensile::apps {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-
 struct Options {
   SceneOptions scene;
   PushOptions push;
-  std::string kind = "push";
-  double travel_mm = 10.0;
-  double turn_deg = 0.0;
-  double bend_deg = 0.0;
-  double tolerance_um = 1.0;
-  int points = 16;
+  PathOptions path;
   bool grip_range = false;
   double grip_tolerance_mm = 1.0;
 };
 
-Push make_push(const Options& options, const Model& model, int contact) {
-  const double place = 1e-3 * options.push.place_mm;
-  const double travel = 1e-3 * options.travel_mm;
-  if (travel < 0.0 && options.kind != "roll") {
-    throw BadInput(
-        text("--travel-mm %g: expected at least 0 (turn the direction instead)",
-             options.travel_mm));
-  }
-  const double turn = kRadPerDeg * options.turn_deg;
-  const Vec2 e = chosen_direction(model, contact, options.push);
-  if (options.kind == "slide") {
-    return Slide{.contact = contact, .place = place, .e = e, .travel = travel};
-  }
-  if (options.kind == "pivot")
-    return Pivot{.contact = contact, .place = place, .turn = turn};
-  if (options.kind == "roll") return Roll{.contact = contact, .travel = travel};
-  return LinearPush{.contact = contact,
-                    .place = place,
-                    .e = e,
-                    .travel = travel,
-                    .turn = turn,
-                    .bend = kRadPerDeg * options.bend_deg};
-}
-
 std::string describe(const Model& model, const Options& options,
                      const Transition& transition, const std::vector<Sample>& trace) {
-  std::string out = options.kind + ": " + std::string(name(transition.status)) +
+  std::string out = options.path.kind + ": " + std::string(name(transition.status)) +
                     text(" after %.1f %% of the push", 100.0 * transition.done) + '\n';
   if (!transition.reason.empty()) out += std::string(transition.reason) + '\n';
   Table table({"done %", "x mm", "y mm", "theta deg", "roll deg", "force N", "normal N",
@@ -133,7 +100,7 @@ int run_grip_range(const Options& options, const Model& model, const Push& push)
   GripRangeOptions wanted;
   wanted.tolerance = 1e-3 * options.grip_tolerance_mm;
   wanted.transition.tolerance =
-      std::min(1e-6 * options.tolerance_um, 0.01 * wanted.tolerance);
+      std::min(1e-6 * options.path.tolerance_um, 0.01 * wanted.tolerance);
   const GripRange range =
       grip_range(model, chosen_grasp(model, options.push), push, wanted);
   if (options.scene.json) {
@@ -146,13 +113,14 @@ int run_grip_range(const Options& options, const Model& model, const Push& push)
 
 int run(const Options& options) {
   const SceneFile file = read_scene(options.scene.file, options.scene.overrides);
-  const Model model = prepare(file.scene, {.points_per_pad = options.points});
+  const Model model = prepare(file.scene, {.points_per_pad = options.path.points});
   const int contact = chosen_contact(model, options.push);
-  const Push push = make_push(options, model, contact);
+  const Push push = chosen_push(model, contact, options.push, options.path);
   if (options.grip_range) return run_grip_range(options, model, push);
   std::vector<Sample> trace;
-  const Transition transition = apply(model, chosen_grasp(model, options.push), push,
-                                      {.tolerance = 1e-6 * options.tolerance_um}, &trace);
+  const Transition transition =
+      apply(model, chosen_grasp(model, options.push), push,
+            {.tolerance = 1e-6 * options.path.tolerance_um}, &trace);
   if (options.scene.json) {
     std::printf("%s\n", to_json(transition, trace).dump(2).c_str());
   } else {
@@ -168,30 +136,7 @@ Command add_query_push(CLI::App& query) {
   CLI::App& command = *query.add_subcommand("push", "one push from pose to pose");
   add_scene_options(command, options->scene);
   add_push_options(command, options->push);
-  command
-      .add_option("--kind", options->kind, "slide, pivot, roll, or push: the general one")
-      ->check(CLI::IsMember({"slide", "pivot", "roll", "push"}))
-      ->capture_default_str();
-  command.add_option("--travel-mm", options->travel_mm, "of the pusher (not for pivot)")
-      ->check(CLI::Range(-1e4, 1e4))
-      ->capture_default_str();
-  command.add_option("--turn-deg", options->turn_deg, "of the pusher (pivot and push)")
-      ->check(CLI::Range(-3600.0, 3600.0))
-      ->capture_default_str();
-  command
-      .add_option("--bend-deg", options->bend_deg,
-                  "by which the direction turns along the push (push only); the negative "
-                  "of --turn-deg: a screw")
-      ->check(CLI::Range(-3600.0, 3600.0))
-      ->capture_default_str();
-  command
-      .add_option("--tolerance-um", options->tolerance_um,
-                  "accepted error of the end pose")
-      ->check(CLI::Range(1e-6, 1e3))
-      ->capture_default_str();
-  command.add_option("--points", options->points, "contact points per pad")
-      ->check(CLI::IsMember({1, 4, 8, 16, 32, 64}))
-      ->capture_default_str();
+  add_path_options(command, options->path);
   command.add_flag("--grip-range", options->grip_range,
                    "instead: the grip forces with which this push ends where it should");
   command

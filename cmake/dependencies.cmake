@@ -24,6 +24,7 @@ if(PREHENSILE_APPS)
   find_package(nlohmann_json 3.11 REQUIRED)
   find_package(CLI11 REQUIRED)
   find_package(ZLIB REQUIRED)
+  find_package(Threads REQUIRED)
 endif()
 
 if(PREHENSILE_TESTS)

@@ -150,6 +150,7 @@ TEST(Program, JsonIsOneObjectAndNothingElse) {
        {"plan " + kScene + " --json -o " + plan, "check --json " + plan,
         "inspect --json " + kScene, "query instant --json " + kScene,
         "query push --json " + kScene + " --travel-mm 5",
+        "query push --json --grip-range " + kScene + " --travel-mm 5",
         std::string("query instant --json --roll problems/paper/roll.yaml")}) {
     const Outcome outcome = run_program(arguments);
     EXPECT_LE(outcome.exit_code, 1) << arguments << outcome.err;
@@ -222,7 +223,8 @@ TEST(Program, WrongUseEndsWithTwoAndHelpWithZero) {
   EXPECT_EQ(run_program("check /dev/null").exit_code, 2);
   EXPECT_EQ(run_program("--help").exit_code, 0);
   for (const char* command :
-       {"plan", "check", "query instant", "query push", "inspect"}) {
+       {"plan", "check", "query instant", "query push", "query sweep", "query cone",
+        "query spread", "query contact", "inspect"}) {
     const Outcome help = run_program(std::string(command) + " --help");
     EXPECT_EQ(help.exit_code, 0) << command;
     EXPECT_NE(help.out.find("Example"), std::string::npos) << command;

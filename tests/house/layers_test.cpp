@@ -27,8 +27,10 @@ const std::map<std::string, std::set<std::string>> kLeftOf = {
     {"problems",
      {"scene", "optimisation", "mechanics", "primitives", "planner", "problems"}},
     {"io", {"scene", "optimisation", "mechanics", "primitives", "planner", "io"}},
+    {"plot", {"plot"}},
     {"apps",
-     {"scene", "optimisation", "mechanics", "primitives", "planner", "io", "apps"}},
+     {"scene", "optimisation", "mechanics", "primitives", "planner", "io", "plot",
+      "apps"}},
 };
 
 /// Where a third party, or a part of the standard library, may be named.
@@ -53,7 +55,7 @@ std::vector<Room> rooms() {
       room("^(iostream|fstream)$", "^(io|apps)/.*"),
       room("^random$", "^$"),
       room("^chrono$", "^(planner|apps)/.*"),
-      room("^thread$", "^$"),
+      room("^thread$", "^apps/.*"),
   };
 }
 

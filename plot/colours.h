@@ -1,0 +1,21 @@
+/// Colours of series and of heat maps. Internal to the plot layer.
+#pragma once
+
+#include <string>
+
+#include "plot/chart.h"
+
+namespace prehensile::plot {
+
+/// "#rrggbb" of a colour that is not kNext. Source: the palette of Okabe and Ito, its
+/// yellow darkened for lines on white.
+std::string hex(Colour colour);
+
+/// The n-th colour of series that do not choose theirs, n >= 0.
+Colour nth_colour(int n);
+
+/// "#rrggbb" at a share of the scale, clamped to [0, 1]: dark blue over green to yellow,
+/// lightness rising all the way, so that it also reads in grey.
+std::string map_colour(double share);
+
+}  // namespace prehensile::plot

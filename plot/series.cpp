@@ -1,0 +1,268 @@
+/// How each kind of series looks, in the chart and in the legend.
+#include <algorithm>
+#include <cmath>
+
+#include "plot/colours.h"
+#include "plot/frame.h"
+
+namespace prehensile::plot {
+namespace {
+
+constexpr double kLineWidth = 2.0;
+
+template <class... Cases>
+struct Overloaded : Cases... {
+  using Cases::operator()...;
+};
+template <class... Cases>
+Overloaded(Cases...) -> Overloaded<Cases...>;
+
+std::string dashes(Dash dash) {
+  switch (dash) {
+    case Dash::kSolid:
+      return "";
+    case Dash::kDashed:
+      return "7 4";
+    case Dash::kDotted:
+      return "1.5 3.5";
+  }
+  return "";
+}
+
+std::string at(double x, double y) { return px(x) + ' ' + px(y); }
+
+std::string at(const Frame& frame, const Point& point) {
+  return at(frame.px_x(point.x), frame.px_y(point.y));
+}
+
+/// Points that cannot be drawn break the line.
+std::string polyline(const Frame& frame, const std::vector<Point>& points) {
+  std::string out;
+  bool pen_down = false;
+  for (const Point& point : points) {
+    const bool shown = frame.drawable(point);
+    if (shown) out += (pen_down ? " L" : " M") + at(frame, point);
+    pen_down = shown;
+  }
+  return out;
+}
+
+std::string staircase(const Frame& frame, const std::vector<Point>& points) {
+  std::string out;
+  bool pen_down = false;
+  for (const Point& point : points) {
+    const bool shown = frame.drawable(point);
+    if (shown && pen_down) {
+      out += " H" + px(frame.px_x(point.x)) + " V" + px(frame.px_y(point.y));
+    } else if (shown) {
+      out += " M" + at(frame, point);
+    }
+    pen_down = shown;
+  }
+  return out;
+}
+
+/// Rows that cannot be drawn cut the band in two.
+std::string band_outline(const Frame& frame, const std::vector<Band::Row>& rows) {
+  std::string out, back;
+  const auto close = [&] {
+    if (!back.empty()) out += back + " Z";
+    back.clear();
+  };
+  for (const Band::Row& row : rows) {
+    if (!frame.drawable({row.x, row.low}) || !frame.drawable({row.x, row.high})) {
+      close();
+      continue;
+    }
+    out += (back.empty() ? " M" : " L") + at(frame, {row.x, row.high});
+    back.insert(0, " L" + at(frame, {row.x, row.low}));
+  }
+  close();
+  return out;
+}
+
+std::string mark_path(Mark mark, double x, double y, double r) {
+  switch (mark) {
+    case Mark::kCircle:
+      return 'M' + at(x - r, y) + " a" + at(r, r) + " 0 1 0 " + at(2.0 * r, 0.0) + " a" +
+             at(r, r) + " 0 1 0 " + at(-2.0 * r, 0.0) + " Z";
+    case Mark::kSquare:
+      return 'M' + at(x - r, y - r) + " h" + px(2.0 * r) + " v" + px(2.0 * r) + " h" +
+             px(-2.0 * r) + " Z";
+    case Mark::kDiamond:
+      return 'M' + at(x - r, y) + " L" + at(x, y - r) + " L" + at(x + r, y) + " L" +
+             at(x, y + r) + " Z";
+    case Mark::kTriangle:
+      return 'M' + at(x - r, y + r) + " L" + at(x, y - r) + " L" + at(x + r, y + r) +
+             " Z";
+    case Mark::kCross:
+      return 'M' + at(x - r, y - r) + " L" + at(x + r, y + r) + " M" + at(x - r, y + r) +
+             " L" + at(x + r, y - r);
+  }
+  return "";
+}
+
+void draw_mark(Drawing& drawing, Mark mark, double x, double y, double size,
+               const std::string& colour) {
+  const double r = std::clamp(std::isfinite(size) ? size : 3.0, 0.5, 20.0);
+  const bool open = mark == Mark::kCross;
+  drawing.path(mark_path(mark, x, y, r), open ? "none" : colour, 0.75,
+               {.colour = open ? colour : "none", .width = 1.5});
+}
+
+void draw_path(Drawing& drawing, const std::string& data, const std::string& colour,
+               Dash dash) {
+  if (data.empty()) return;
+  drawing.path(data, "none", 1.0,
+               {.colour = colour, .width = kLineWidth, .dashes = dashes(dash)});
+}
+
+void draw_arrow(Drawing& drawing, double x1, double y1, double x2, double y2,
+                const std::string& colour) {
+  const double length = std::hypot(x2 - x1, y2 - y1);
+  if (!(length > 0.0) || !std::isfinite(length)) return;
+  const double ux = (x2 - x1) / length;
+  const double uy = (y2 - y1) / length;
+  const double head = std::min(9.0, length);
+  drawing.line(x1, y1, x2 - 0.8 * head * ux, y2 - 0.8 * head * uy,
+               {.colour = colour, .width = kLineWidth});
+  const std::string corners =
+      'M' + at(x2, y2) + " L" +
+      at(x2 - head * ux - 0.4 * head * uy, y2 - head * uy + 0.4 * head * ux) + " L" +
+      at(x2 - head * ux + 0.4 * head * uy, y2 - head * uy - 0.4 * head * ux) + " Z";
+  drawing.path(corners, colour, 1.0, {});
+}
+
+}  // namespace
+
+const std::string& label_of(const Series& series) {
+  static const std::string kNone;
+  return std::visit(
+      Overloaded{[](const Note&) -> const std::string& { return kNone; },
+                 [](const auto& s) -> const std::string& { return s.label; }},
+      series);
+}
+
+Colour colour_of(const Series& series, int& used) {
+  const Colour own = std::visit(Overloaded{[](const Note&) { return Colour::kBlack; },
+                                           [](const auto& s) { return s.colour; }},
+                                series);
+  return own == Colour::kNext ? nth_colour(used++) : own;
+}
+
+void add_extent(const Series& series, RangeBuilder& x, RangeBuilder& y) {
+  const auto add = [&](const Point& point) {
+    x.add(point.x);
+    y.add(point.y);
+  };
+  std::visit(Overloaded{[&](const Band& s) {
+                          for (const Band::Row& row : s.rows) {
+                            add({row.x, row.low});
+                            add({row.x, row.high});
+                          }
+                        },
+                        [&](const Rule& s) { (s.vertical ? x : y).add(s.value); },
+                        [&](const Arrow& s) {
+                          add(s.tail);
+                          add(s.head);
+                        },
+                        [&](const Note& s) { add(s.at); },
+                        [&](const auto& s) {
+                          for (const Point& point : s.points) add(point);
+                        }},
+             series);
+}
+
+void draw(Drawing& drawing, const Frame& frame, const Series& series, Colour colour) {
+  const std::string paint = hex(colour);
+  std::visit(
+      Overloaded{
+          [&](const Line& s) {
+            draw_path(drawing, polyline(frame, s.points), paint, s.dash);
+            if (!s.marks) return;
+            for (const Point& p : s.points) {
+              if (!frame.drawable(p)) continue;
+              draw_mark(drawing, Mark::kCircle, frame.px_x(p.x), frame.px_y(p.y), 3.0,
+                        paint);
+            }
+          },
+          [&](const Steps& s) {
+            draw_path(drawing, staircase(frame, s.points), paint, s.dash);
+          },
+          [&](const Scatter& s) {
+            for (const Point& p : s.points) {
+              if (!frame.drawable(p)) continue;
+              draw_mark(drawing, s.mark, frame.px_x(p.x), frame.px_y(p.y), s.size, paint);
+            }
+          },
+          [&](const Band& s) {
+            const std::string outline = band_outline(frame, s.rows);
+            if (!outline.empty()) drawing.path(outline, paint, 0.22, {});
+          },
+          [&](const Region& s) {
+            const std::string outline = polyline(frame, s.points);
+            if (outline.empty()) return;
+            drawing.path(outline + " Z", s.filled ? paint : "none", 0.22,
+                         {.colour = paint, .width = 1.2});
+          },
+          [&](const Rule& s) {
+            const Drawing::Stroke stroke{
+                .colour = paint, .width = 1.3, .dashes = dashes(s.dash)};
+            if (!drawable(s.value, s.vertical ? frame.x.scale : frame.y.scale)) return;
+            const double x = frame.px_x(s.value);
+            const double y = frame.px_y(s.value);
+            if (s.vertical) {
+              drawing.line(x, frame.top, x, frame.top + frame.height, stroke);
+            } else {
+              drawing.line(frame.left, y, frame.left + frame.width, y, stroke);
+            }
+          },
+          [&](const Arrow& s) {
+            if (!frame.drawable(s.tail) || !frame.drawable(s.head)) return;
+            draw_arrow(drawing, frame.px_x(s.tail.x), frame.px_y(s.tail.y),
+                       frame.px_x(s.head.x), frame.px_y(s.head.y), paint);
+          },
+          [&](const Note& s) {
+            if (!frame.drawable(s.at)) return;
+            const double x = frame.px_x(s.at.x);
+            const bool right = x > frame.left + 0.7 * frame.width;
+            drawing.text(
+                x + (right ? -6.0 : 6.0), frame.px_y(s.at.y) - 6.0, s.text,
+                {.size = 11.0,
+                 .anchor = right ? Drawing::Anchor::kEnd : Drawing::Anchor::kStart});
+          }},
+      series);
+}
+
+void draw_key(Drawing& drawing, double x, double y, double width, double height,
+              const Series& series, Colour colour) {
+  const std::string paint = hex(colour);
+  const double middle = x + 0.5 * width;
+  const auto stroke = [&](Dash dash) {
+    return Drawing::Stroke{.colour = paint, .width = kLineWidth, .dashes = dashes(dash)};
+  };
+  std::visit(
+      Overloaded{
+          [&](const Line& s) {
+            drawing.line(x, y, x + width, y, stroke(s.dash));
+            if (s.marks) draw_mark(drawing, Mark::kCircle, middle, y, 3.0, paint);
+          },
+          [&](const Scatter& s) { draw_mark(drawing, s.mark, middle, y, 3.5, paint); },
+          [&](const Band&) {
+            drawing.path('M' + at(x, y - 0.5 * height) + " h" + px(width) + " v" +
+                             px(height) + " h" + px(-width) + " Z",
+                         paint, 0.22, {});
+          },
+          [&](const Region& s) {
+            drawing.path('M' + at(x, y - 0.5 * height) + " h" + px(width) + " v" +
+                             px(height) + " h" + px(-width) + " Z",
+                         s.filled ? paint : "none", 0.22,
+                         {.colour = paint, .width = 1.2});
+          },
+          [&](const Arrow&) { draw_arrow(drawing, x, y, x + width, y, paint); },
+          [](const Note&) {},
+          [&](const auto& s) { drawing.line(x, y, x + width, y, stroke(s.dash)); }},
+      series);
+}
+
+}  // namespace prehensile::plot

@@ -1,0 +1,128 @@
+#include "primitives/uncertainty.h"
+
+#include <algorithm>
+
+#include "scene/outline.h"
+
+namespace prehensile {
+namespace {
+
+/// SplitMix64 (Steele, Lea, Flood 2014).
+std::uint64_t mixed(std::uint64_t z) {
+  z += 0x9e3779b97f4a7c15u;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return z ^ (z >> 31);
+}
+
+struct ScalePad {
+  double factor;
+  void operator()(DiscPad& disc) const { disc.radius *= factor; }
+  void operator()(RectanglePad& rectangle) const { rectangle.size *= factor; }
+  void operator()(LinePad& line) const { line.length *= factor; }
+  void operator()(PointPad&) const {}
+};
+
+/// Place, direction and travel of a push, where it has them.
+struct MovePush {
+  double place, travel, turn_of_direction;
+
+  template <typename Straight>
+  void operator()(Straight& push) const {
+    push.place += place;
+    push.e = rotated(turn_of_direction, push.e);
+    push.travel = std::max(0.0, push.travel + travel);
+  }
+  void operator()(Pivot& pivot) const { pivot.place += place; }
+  void operator()(Roll& roll) const { roll.travel += travel; }
+};
+
+}  // namespace
+
+std::string_view name(Unknown unknown) {
+  static constexpr std::array<std::string_view, kUnknowns> kNames = {
+      "friction",         "finger friction",  "grip force", "mass",   "torque radius",
+      "centre of mass x", "centre of mass y", "place",      "travel", "direction",
+      "grasp x",          "grasp y",          "grasp angle"};
+  return kNames[static_cast<std::size_t>(unknown)];
+}
+
+bool may_be_relative(Unknown unknown) { return unknown <= Unknown::kTorqueRadius; }
+
+std::vector<Unknown> UncertaintyBox::active() const {
+  std::vector<Unknown> out;
+  for (int i = 0; i < kUnknowns; ++i) {
+    if (half_width[static_cast<std::size_t>(i)] > 0.0) {
+      out.push_back(static_cast<Unknown>(i));
+    }
+  }
+  return out;
+}
+
+BoxPoint random_point(std::uint64_t seed, std::uint64_t index) {
+  BoxPoint point;
+  std::uint64_t state = mixed(mixed(seed) + index);
+  for (double& coordinate : point) {
+    state = mixed(state);
+    coordinate = 2.0 * static_cast<double>(state >> 11) * 0x1.0p-53 - 1.0;
+  }
+  return point;
+}
+
+BoxPoint corner(const UncertaintyBox& box, std::uint64_t index) {
+  BoxPoint point{};
+  int bit = 0;
+  for (const Unknown unknown : box.active()) {
+    point[static_cast<std::size_t>(unknown)] = (index >> bit++) & 1U ? 1.0 : -1.0;
+  }
+  return point;
+}
+
+UncertainPush vary(const Scene& scene, const Grasp& start, const Push& push,
+                   const UncertaintyBox& box, const BoxPoint& at) {
+  const auto offset = [&](Unknown unknown) {
+    return box[unknown] * at[static_cast<std::size_t>(unknown)];
+  };
+  const auto changed = [&](Unknown unknown, double nominal) {
+    const bool absolute = box.is_absolute[static_cast<std::size_t>(unknown)];
+    return std::max(0.0, nominal + offset(unknown) * (absolute ? 1.0 : nominal));
+  };
+  UncertainPush out{scene, start, push};
+  for (Pusher& pusher : out.scene.pushers) {
+    pusher.friction = changed(Unknown::kFriction, pusher.friction);
+  }
+  Gripper& gripper = out.scene.gripper;
+  for (double& friction : gripper.friction) {
+    friction = changed(Unknown::kFingerFriction, friction);
+  }
+  gripper.grip_force = changed(Unknown::kGripForce, gripper.grip_force);
+  if (auto* roll = std::get_if<Roll>(&out.push); roll && roll->grip_force > 0.0) {
+    roll->grip_force = changed(Unknown::kGripForce, roll->grip_force);
+  }
+  out.scene.object.mass = changed(Unknown::kMass, scene.object.mass);
+  if (box[Unknown::kTorqueRadius] > 0.0) {
+    const ContactRegion pads(scene, 16);
+    const double c = pads.torque_radius();
+    if (c > 0.0) {
+      std::visit(ScalePad{std::max(1e-3, changed(Unknown::kTorqueRadius, c) / c)},
+                 gripper.pad);
+    }
+  }
+  const Vec2 shift(offset(Unknown::kCentreOfMassX), offset(Unknown::kCentreOfMassY));
+  if (!shift.isZero(0.0)) {
+    out.scene.object.p_OCom = Vec2(centre_of_mass(scene.object) + shift);
+  }
+  std::visit(MovePush{offset(Unknown::kPlace), offset(Unknown::kTravel),
+                      offset(Unknown::kDirection)},
+             out.push);
+  if (const double angle = offset(Unknown::kGraspAngle); angle != 0.0) {
+    out.start.X_HO =
+        pose_from_finger(finger_in_object(start.X_HO), start.X_HO.theta + angle);
+  }
+  out.start.X_HO.x += offset(Unknown::kGraspX);
+  out.start.X_HO.y += offset(Unknown::kGraspY);
+  out.scene.start = out.start;
+  return out;
+}
+
+}  // namespace prehensile

@@ -50,7 +50,7 @@ nlohmann::ordered_json end_json(const GripEnd& end) {
 
 }  // namespace
 
-std::string describe(const Model& model, const GripRange& range) {
+std::string grip_text(const Model& model, const GripRange& range) {
   std::string out;
   if (!range.found) out += std::string(range.reason) + '\n';
   if (range.found) {
@@ -70,7 +70,7 @@ std::string describe(const Model& model, const GripRange& range) {
   return out;
 }
 
-nlohmann::ordered_json to_json(const GripRange& range) {
+nlohmann::ordered_json grip_json(const GripRange& range) {
   nlohmann::ordered_json out = {{"found", range.found},
                                 {"reason", std::string(range.reason)},
                                 {"nominal",

@@ -9,7 +9,7 @@
 
 namespace prehensile::apps {
 
-std::string describe(const Model& model, const GripRange& range);
-nlohmann::ordered_json to_json(const GripRange& range);
+std::string grip_text(const Model& model, const GripRange& range);
+nlohmann::ordered_json grip_json(const GripRange& range);
 
 }  // namespace prehensile::apps

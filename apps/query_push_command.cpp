@@ -104,9 +104,9 @@ int run_grip_range(const Options& options, const Model& model, const Push& push)
   const GripRange range =
       grip_range(model, chosen_grasp(model, options.push), push, wanted);
   if (options.scene.json) {
-    std::printf("%s\n", to_json(range).dump(2).c_str());
+    std::printf("%s\n", grip_json(range).dump(2).c_str());
   } else {
-    std::fputs(describe(model, range).c_str(), stdout);
+    std::fputs(grip_text(model, range).c_str(), stdout);
   }
   return range.found ? kDone : kNegative;
 }

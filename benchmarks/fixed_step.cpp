@@ -12,8 +12,11 @@ namespace {
 /// Secant steps that close in on an event.
 constexpr int kLocationSteps = 8;
 
+/// Events of a push; more are a contact mode that alternates.
+constexpr int kMostEvents = 50;
+
 /// Attempted steps of the adaptive scheme.
-constexpr int kMostSteps = 20000;
+constexpr int kMostSteps = 3000;
 
 class Plain {
  public:
@@ -110,7 +113,7 @@ class Plain {
     }
     q_ = end;
     s_ += length;
-    ++events_;
+    if (++events_ > kMostEvents) return false;
     const bool sticks = regime_ == Regime::kStick;
     if (instant_.solve(seat_, s_, q_)) return false;
     regime_ = sticks ? instant_.slip_side() : Regime::kStick;

@@ -35,6 +35,7 @@ struct DoubledStep {
   Vec2 rate_middle = Vec2::Zero();
   Vec2 rate_end = Vec2::Zero();
   Vec2 error = Vec2::Zero();  ///< of y_end, made in this step
+  bool gave_up = false;       ///< only the embedded error of the whole step is known
   bool is_smooth = true;      ///< the rate had no kink that errors would show
   Vec2 probe = Vec2::Zero();  ///< a change of state and what it does to the rate
   Vec2 probe_rate = Vec2::Zero();
@@ -78,11 +79,14 @@ struct DoubledStep {
 /// with which the error of a base step falls, `is_stiff` whether that holds only for its
 /// slow part.
 ///
+/// `is_hopeless(error)` is asked about the embedded error of the whole step, before its
+/// halves are taken: if so they are not, and `gave_up` is set.
+///
 /// Where the rate has a kink the error falls more slowly, which the embedded errors of
 /// the base steps show: then the difference itself counts, or those errors.
-template <class Method, class Rate, class EndRate>
-double doubled(const Method& method, const Rate& rate, const EndRate& end_rate, int order,
-               bool is_stiff, DoubledStep& step) {
+template <class Method, class Rate, class EndRate, class Hopeless>
+double doubled(const Method& method, const Rate& rate, const EndRate& end_rate,
+               const Hopeless& is_hopeless, int order, bool is_stiff, DoubledStep& step) {
   constexpr double kDone = std::numeric_limits<double>::infinity();
   constexpr double kOfEmbedded = 0.1;  // a step's own error is seldom less
   BaseStep whole;
@@ -91,6 +95,10 @@ double doubled(const Method& method, const Rate& rate, const EndRate& end_rate, 
   whole.y = step.y;
   whole.rate = step.rate;
   if (const double failed = method(rate, whole); failed != kDone) return failed;
+  step.y_end = whole.y_end;
+  step.error = whole.error;
+  step.gave_up = is_hopeless(whole.error);
+  if (step.gave_up) return kDone;
   BaseStep first = whole;
   first.h = 0.5 * step.h;
   first.ends = false;

@@ -22,6 +22,11 @@ constexpr double kNotStiff = 1.0;
 /// Longest step with an overhanging pad over the wanted spacing of checks.
 constexpr double kOverhangStep = 4.0;
 
+/// Embedded over allowed error of a whole step whose halves need not be tried, and over
+/// the error that these would have.
+constexpr double kHopeless = 500.0;
+constexpr double kHopelessIsMore = 100.0;
+
 /// Allowed over computed error of a step: smooth, and with a kink.
 constexpr double kDoubt = 1.5;
 constexpr double kRoughness = 3.0;
@@ -68,6 +73,9 @@ bool PushRun::integrate() {
   const auto end_rate = [this](double s, const Vec2& q, Vec2& out) {
     return rate_at_end(s, q, out);
   };
+  const auto is_hopeless = [this](const Vec2& error) {
+    return length_of(error) > kHopeless * control_.allowed(step_.h);
+  };
   double failed_at = kNever;
   if (stiff_) {
     RateDerivatives at_start;
@@ -77,15 +85,19 @@ bool PushRun::integrate() {
       known_at = base.s;
       return rosenbrock(f, at_start, base);
     };
-    failed_at = doubled(method, rate, end_rate, kStiffOrder, true, step_);
+    failed_at = doubled(method, rate, end_rate, is_hopeless, kStiffOrder, true, step_);
   } else {
     const auto method = [](const auto& f, BaseStep& base) {
       return dormand_prince(f, base);
     };
-    failed_at = doubled(method, rate, end_rate, kOrder, false, step_);
+    failed_at = doubled(method, rate, end_rate, is_hopeless, kOrder, false, step_);
   }
   if (failed_at != kNever) {
     block(failed_at);
+    return false;
+  }
+  if (step_.gave_up) {
+    (void)control_.accepts(step_.h, length_of(step_.error) / kHopelessIsMore, kOrder);
     return false;
   }
   step_error_ = (step_.is_smooth ? kDoubt : kRoughness) * length_of(step_.error);

@@ -21,13 +21,15 @@ bool spiral(double s, const Vec2& y, Vec2& rate) {
   return true;
 }
 
+bool never(const Vec2&) { return false; }
+
 template <class Rate>
 double take(const Rate& rate, DoubledStep& step) {
   const auto method = [](const auto& f, BaseStep& base) {
     return dormand_prince(f, base);
   };
   rate(step.s, step.y, step.rate);
-  return doubled(method, rate, rate, kOrder, false, step);
+  return doubled(method, rate, rate, never, kOrder, false, step);
 }
 
 DoubledStep step_over(double h) {
@@ -107,9 +109,29 @@ TEST(DoubledStep, LastCallIsTheOneAtTheEnd) {
   const auto method = [](const auto& f, BaseStep& base) {
     return dormand_prince(f, base);
   };
-  ASSERT_TRUE(std::isinf(doubled(method, rate, end_rate, kOrder, false, step)));
+  ASSERT_TRUE(std::isinf(doubled(method, rate, end_rate, never, kOrder, false, step)));
   EXPECT_EQ(at_end, 1);
   EXPECT_EQ(others_after, 0);
+}
+
+TEST(DoubledStep, GivesUpBeforeTheHalves) {
+  DoubledStep step;
+  step.h = 1.0;
+  step.y = exact(0.0);
+  step.rate = Vec2(0.0, 2.0);
+  int calls = 0;
+  const auto rate = [&](double s, const Vec2& y, Vec2& out) {
+    ++calls;
+    return spiral(s, y, out);
+  };
+  const auto method = [](const auto& f, BaseStep& base) {
+    return dormand_prince(f, base);
+  };
+  const auto always = [](const Vec2&) { return true; };
+  ASSERT_TRUE(std::isinf(doubled(method, rate, rate, always, kOrder, false, step)));
+  EXPECT_TRUE(step.gave_up);
+  EXPECT_EQ(calls, 6);
+  EXPECT_GT(step.error.norm(), 0.0);
 }
 
 }  // namespace

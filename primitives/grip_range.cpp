@@ -14,7 +14,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Grip forces per decade that are tried before the ends are closed in on.
-constexpr int kPerDecade = 8;
+constexpr int kPerDecade = 5;
 
 /// Halvings of the search for the least grip that holds.
 constexpr int kHalvings = 60;
@@ -225,20 +225,24 @@ GripRange grip_range(const Model& model, const Grasp& start, const Push& push,
       static_cast<int>(std::ceil(kPerDecade * std::log10(own / options.least)));
   const int above =
       static_cast<int>(std::ceil(kPerDecade * std::log10(options.greatest / own)));
-  int nearest = std::max(below, above) + 1;
-  for (int i = -below; i <= above; ++i) {
-    if (std::abs(i) < std::abs(nearest) && search.does(search.at(force_at(i))))
-      nearest = i;
+  const auto does = [&](int i) {
+    return i >= -below && i <= above && search.does(search.at(force_at(i)));
+  };
+  int nearest = 0;
+  int distance = 0;
+  for (; distance <= std::max(below, above); ++distance) {
+    nearest = does(distance) ? distance : -distance;
+    if (nearest > 0 || does(nearest)) break;
   }
-  if (nearest > std::max(below, above)) {
+  if (distance > std::max(below, above)) {
     range.reason = "with no grip force of the search does the push what it should";
     return range;
   }
   range.found = true;
   int low = nearest;
-  while (low > -below && search.does(search.at(force_at(low - 1)))) --low;
+  while (low > -below && does(low - 1)) --low;
   int high = nearest;
-  while (high < above && search.does(search.at(force_at(high + 1)))) ++high;
+  while (high < above && does(high + 1)) ++high;
   range.low = low == -below ? search.open(force_at(low))
                             : search.between(force_at(low), force_at(low - 1));
   range.high = high == above ? search.open(force_at(high))

@@ -40,7 +40,7 @@ class PushRun {
         instant_(model, push, start, options),
         limits_(model, start, guard, reach_),
         record_(options.certificate_tolerance, trace),
-        control_(options.tolerance, longest_step(options),
+        control_(kStepShare * options.tolerance, longest_step(options),
                  std::clamp(kLocationShare * options.tolerance / instant_.speed(), 1e-12,
                             1e-3)),
         traced_(trace != nullptr) {}
@@ -56,6 +56,9 @@ class PushRun {
   using InMode = PushInstant::InMode;
 
   static constexpr double kNever = StepControl::kNever;
+
+  /// Share of the tolerance that steps may spend: errors grow after they were made.
+  static constexpr double kStepShare = 0.5;
 
   /// Share of the tolerance that the location of an event may cost.
   static constexpr double kLocationShare = 0.1;

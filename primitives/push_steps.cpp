@@ -164,7 +164,9 @@ RateDerivatives PushRun::derivatives(const BaseStep& base) {
   for (const int k : {0, 1}) {
     if (!(k == 0 ? slips : tilts)) continue;
     Vec2 q = base.y;
-    const double change = k == 0 ? kNudge * model_.L : kNudge;
+    // Small against the way in which the object swings to where it trails.
+    const double swing = kNudge * std::min(1.0, reach_ / model_.L);
+    const double change = k == 0 ? swing * model_.L : swing;
     q[k] += change;
     if (!rate_in_mode(base.s, q, rate)) continue;
     found.by_state.col(k) = (rate - base.rate) / change;

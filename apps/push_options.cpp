@@ -100,6 +100,12 @@ void add_path_options(CLI::App& command, PathOptions& options) {
       ->check(CLI::Range(-3600.0, 3600.0))
       ->capture_default_str();
   command
+      .add_option("--bend-deg", options.bend_deg,
+                  "by which the direction turns along the push (push only); the negative "
+                  "of --turn-deg: a screw")
+      ->check(CLI::Range(-3600.0, 3600.0))
+      ->capture_default_str();
+  command
       .add_option("--tolerance-um", options.tolerance_um,
                   "accepted error of the end pose")
       ->check(CLI::Range(1e-6, 1e3))
@@ -127,8 +133,12 @@ Push chosen_push(const Model& model, int contact, const PushOptions& options,
     return Pivot{.contact = contact, .place = place, .turn = turn};
   }
   if (path.kind == "roll") return Roll{.contact = contact, .travel = travel};
-  return LinearPush{
-      .contact = contact, .place = place, .e = e, .travel = travel, .turn = turn};
+  return LinearPush{.contact = contact,
+                    .place = place,
+                    .e = e,
+                    .travel = travel,
+                    .turn = turn,
+                    .bend = kRadPerDeg * path.bend_deg};
 }
 
 Vec2 chosen_direction(const Model& model, int contact, const PushOptions& options) {

@@ -37,6 +37,7 @@ struct PathOptions {
   std::string kind = "push";
   double travel_mm = 10.0;
   double turn_deg = 0.0;
+  double bend_deg = 0.0;
   double tolerance_um = 1.0;
   int points = 16;
 };

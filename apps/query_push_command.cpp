@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <vector>
@@ -5,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/commands.h"
+#include "apps/grip_report.h"
 #include "apps/json_number.h"
 #include "apps/plan_report.h"
 #include "apps/push_options.h"
@@ -19,6 +21,8 @@ struct Options {
   SceneOptions scene;
   PushOptions push;
   PathOptions path;
+  bool grip_range = false;
+  double grip_tolerance_mm = 1.0;
 };
 
 std::string describe(const Model& model, const Options& options,
@@ -92,11 +96,27 @@ nlohmann::ordered_json to_json(const Transition& transition,
   return out;
 }
 
+int run_grip_range(const Options& options, const Model& model, const Push& push) {
+  GripRangeOptions wanted;
+  wanted.tolerance = 1e-3 * options.grip_tolerance_mm;
+  wanted.transition.tolerance =
+      std::min(1e-6 * options.path.tolerance_um, 0.01 * wanted.tolerance);
+  const GripRange range =
+      grip_range(model, chosen_grasp(model, options.push), push, wanted);
+  if (options.scene.json) {
+    std::printf("%s\n", grip_json(range).dump(2).c_str());
+  } else {
+    std::fputs(grip_text(model, range).c_str(), stdout);
+  }
+  return range.found ? kDone : kNegative;
+}
+
 int run(const Options& options) {
   const SceneFile file = read_scene(options.scene.file, options.scene.overrides);
   const Model model = prepare(file.scene, {.points_per_pad = options.path.points});
   const int contact = chosen_contact(model, options.push);
   const Push push = chosen_push(model, contact, options.push, options.path);
+  if (options.grip_range) return run_grip_range(options, model, push);
   std::vector<Sample> trace;
   const Transition transition =
       apply(model, chosen_grasp(model, options.push), push,
@@ -117,6 +137,13 @@ Command add_query_push(CLI::App& query) {
   add_scene_options(command, options->scene);
   add_push_options(command, options->push);
   add_path_options(command, options->path);
+  command.add_flag("--grip-range", options->grip_range,
+                   "instead: the grip forces with which this push ends where it should");
+  command
+      .add_option("--grip-tolerance-mm", options->grip_tolerance_mm,
+                  "how far from there it may end (--grip-range)")
+      ->check(CLI::Range(1e-6, 1e3))
+      ->capture_default_str();
   command.footer(
       "Example:\n  prehensile query push problems/paper/slide.yaml --kind slide "
       "--travel-mm 15");

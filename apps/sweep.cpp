@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <utility>
 
@@ -276,6 +277,7 @@ void run_sweep(Sweep& sweep, const SceneFile& file, const SceneOptions& scene, i
       std::all_of(sweep.fields.begin(), sweep.fields.end(),
                   [](const SweptField& field) { return field.is_of_query; });
   const PrepareOptions options{.points_per_pad = sweep.question.path.points};
+  const std::filesystem::path folder = std::filesystem::path(scene.file).parent_path();
   std::optional<Model> model;
   if (one_scene) model = prepare(file.scene, options);
   sweep.rows.assign(static_cast<std::size_t>(count), SweepRow{});
@@ -296,11 +298,11 @@ void run_sweep(Sweep& sweep, const SceneFile& file, const SceneOptions& scene, i
     }
     SweepRow& row = sweep.rows[static_cast<std::size_t>(i)];
     try {
-      row =
-          one_scene
-              ? ask(*model, question)
-              : ask(prepare(parse_scene(file.text, scene.file, overrides).scene, options),
-                    question);
+      row = one_scene
+                ? ask(*model, question)
+                : ask(prepare(parse_scene(file.text, scene.file, overrides, folder).scene,
+                              options),
+                      question);
     } catch (const BadInput& bad) {
       row.status = "bad input";
       row.reason = faults[static_cast<std::size_t>(i)] = bad.what();

@@ -1,6 +1,8 @@
 #include "mechanics/limit_surface.h"
 
 #include "mechanics/certificate_evidence.h"
+#include "mechanics/contact_mode.h"
+#include "mechanics/motion_in_mode.h"
 #include "mechanics/push_verdict.h"
 
 namespace prehensile {
@@ -61,6 +63,18 @@ class UnitSphere {
     std::copy_n(found, count, roots);
     return count;
   }
+
+  bool nearest_slide(const SlideQuestion& question, double& root) const {
+    SlideQuestion either_side = question;
+    either_side.start = -question.slip * std::numeric_limits<double>::infinity();
+    double found[2];
+    const int count = slides_on_sphere(either_side, found);
+    if (count == 0) return false;
+    const bool second =
+        count == 2 && std::abs(found[1] - root) < std::abs(found[0] - root);
+    root = found[second ? 1 : 0];
+    return true;
+  }
 };
 
 }  // namespace
@@ -91,6 +105,18 @@ PlanarInstant solve_limit_surface(const LimitSurface& surface, const PlanarWrenc
   if (!(push.units.rate > 0.0) || !is_within_range(push)) return answer;
   report(push, judge_push(UnitSphere{}, push, nullptr, false), answer);
   return answer;
+}
+
+MotionInMode solve_limit_surface_in_mode(const LimitSurface& surface,
+                                         const PlanarWrench& w_g,
+                                         const PlanarDrive& drive,
+                                         const ContactModeOfPush& mode) noexcept {
+  if (!(surface.F > 0.0 && surface.c > 0.0) || !is_sane(w_g, drive) ||
+      !(contact_rate(drive) > 0.0)) {
+    return {};
+  }
+  const ScaledPush push = scaled(w_g, drive, Vec2::Zero(), surface.c, surface.F);
+  return motion_in_mode(UnitSphere{}, push, mode, nullptr);
 }
 
 namespace {

@@ -233,4 +233,25 @@ int PadFriction::slides(const SlideQuestion& question, int capacity,
   return equation.scan(stretched.V.norm(), capacity, roots);
 }
 
+bool PadFriction::nearest_slide(const SlideQuestion& question,
+                                double& root) const noexcept {
+  const SlideEquation equation{points(), question};
+  if (question.V[2] != 0.0 && equation.polish(root)) return true;
+  SlideQuestion stretched = question;
+  stretched.V[2] *= torque_radius_;
+  stretched.start = -question.slip * std::numeric_limits<double>::infinity();
+  double guess[2];
+  const int guesses = slides_on_sphere(stretched, guess);
+  bool found = false;
+  double nearest = 0.0;
+  for (int i = 0; i < guesses; ++i) {
+    if (question.V[2] != 0.0 && !equation.polish(guess[i])) continue;
+    if (!found || std::abs(guess[i] - root) < std::abs(nearest - root))
+      nearest = guess[i];
+    found = true;
+  }
+  root = nearest;
+  return found;
+}
+
 }  // namespace prehensile

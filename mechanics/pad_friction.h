@@ -56,6 +56,10 @@ class PadFriction {
   /// or one that this does not find, by a scan.
   int slides(const SlideQuestion& question, int capacity, double* roots) const noexcept;
 
+  /// The root of a slide that Newton's method finds from `root`, on either side of the
+  /// start; false if it finds none.
+  bool nearest_slide(const SlideQuestion& question, double& root) const noexcept;
+
   /// w lies strictly inside S (for a point: within its bound, and through it). Otherwise
   /// `unsupported` is a twist with D < w.u.
   bool holds(const PlanarWrench& w, PlanarTwist* unsupported) const noexcept;

@@ -1,5 +1,7 @@
 #include "mechanics/planar_instant.h"
 
+#include "mechanics/contact_mode.h"
+#include "mechanics/motion_in_mode.h"
 #include "mechanics/pad_friction.h"
 #include "mechanics/proximal_newton.h"
 #include "mechanics/push_verdict.h"
@@ -229,6 +231,15 @@ PlanarInstant solve_planar(const PlanarGrasp& grasp, const PlanarDrive& drive,
     warm->last = answer;
   }
   return answer;
+}
+
+MotionInMode solve_planar_in_mode(const PlanarGrasp& grasp, const PlanarDrive& drive,
+                                  const ContactModeOfPush& mode,
+                                  const PlanarTwist* guess) noexcept {
+  const PadFriction::Frame frame = PadFriction::frame_of(grasp);
+  if (!is_posed(grasp, drive, frame)) return {};
+  const Problem problem = pose(grasp, drive, frame);
+  return motion_in_mode(problem.pads, problem.push, mode, guess);
 }
 
 }  // namespace prehensile

@@ -15,7 +15,8 @@
 /// A `Body` offers D in one of two forms (real pads, ellipsoid):
 ///   is_point(), dissipation(u), resistance(u, pivot), pivot_at(u), scaled_twist(u,
 ///   pivot, scale), choose_pivot_force(push, motion), exit(w, e, guess), lowest(u, d, w,
-///   guess), slides(question, capacity, roots), holds(w, unsupported).
+///   guess), slides(question, capacity, roots), nearest_slide(question, root), holds(w,
+///   unsupported).
 #pragma once
 
 #include <algorithm>
@@ -161,6 +162,26 @@ class PushModes {
       if (slid(motion)) ++accepted;
     }
     return accepted;
+  }
+
+  /// Both ends slip, with the speed nearest to `guess`: also where the mode is not lawful
+  /// because they would slip to the other side.
+  bool both_slip_near(int slip, const PlanarTwist* guess, Motion& motion) const {
+    motion = Motion{};
+    motion.support = Motion::Support::kBoth;
+    motion.slip = slip;
+    const Vec2 m = push_.t + slip * push_.mu * push_.n;
+    const PlanarTwist along(push_.t.x(), push_.t.y(), 0.0);
+    const double slide = push_.t.dot(point_velocity(push_.V, push_.p[0]));
+    const PlanarTwist base = push_.V - slide * along;
+    double root = guess != nullptr ? along.dot(*guess - base) : slide;
+    if (!body_.nearest_slide({base, along, m, m.dot(push_.w_g.head<2>()), slide, slip},
+                             root)) {
+      return false;
+    }
+    motion.u = base + root * along;
+    slid(motion);
+    return true;
   }
 
   /// One loaded point. While the pads hold gravity the directions of force and of motion

@@ -1,41 +1,19 @@
-/// One step of the Dormand-Prince pair of order 5(4) with its continuous extension of
-/// order 4, for two coordinates.
+/// One step of the Dormand-Prince pair of order 5(4) for two coordinates.
 ///
-/// Source: Dormand and Prince, J. Comput. Appl. Math. 6 (1980) 19-26; continuous
-/// extension as in Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I,
-/// II.6.
+/// Source: Dormand and Prince, J. Comput. Appl. Math. 6 (1980) 19-26.
 #pragma once
 
-#include <array>
+#include <limits>
 
-#include "scene/frames.h"
+#include "primitives/integration_step.h"
 
 namespace prehensile {
-
-struct DormandPrinceStep {
-  double s = 0.0;             ///< where it starts
-  double h = 0.0;             ///< its length
-  Vec2 y, y_end;              ///< state at both ends
-  Vec2 rate, rate_end;        ///< rate at both ends; rate_end starts the next step
-  Vec2 error;                 ///< order 5 less order 4 at the end
-  Vec2 probe, probe_rate;     ///< a small change of y_end and what it does to the rate
-  std::array<Vec2, 3> dense;  ///< coefficients of the continuous extension
-
-  /// State at the share x in [0, 1] of the step.
-  Vec2 at(double x) const {
-    const double z = 1.0 - x;
-    return y + x * (y_end - y + z * (dense[0] + x * (dense[1] + z * dense[2])));
-  }
-
-  /// Rate of the continuous extension in the middle of the step.
-  Vec2 middle_rate() const { return (y_end - y + 0.25 * dense[1]) / h; }
-};
 
 /// Fills `step` from step.s, step.h, step.y and step.rate. `rate(s, y, out)` returns
 /// false where there is none; then the step is not valid and the result is that s,
 /// otherwise infinity. The last call of `rate` is the one at the end of the step.
 template <class Rate>
-double dormand_prince(const Rate& rate, DormandPrinceStep& step) {
+double dormand_prince(const Rate& rate, BaseStep& step) {
   const double s = step.s;
   const double h = step.h;
   const Vec2& y = step.y;
@@ -57,6 +35,7 @@ double dormand_prince(const Rate& rate, DormandPrinceStep& step) {
   if (no_rate(1.0, slope6, k6)) return s + h;
   const Vec2 slope7 = 35.0 / 384 * k1 + 500.0 / 1113 * k3 + 125.0 / 192 * k4 -
                       2187.0 / 6784 * k5 + 11.0 / 84 * k6;
+  step.ends = true;
   if (no_rate(1.0, slope7, k7)) return s + h;
 
   step.y_end = y + h * slope7;
@@ -65,12 +44,6 @@ double dormand_prince(const Rate& rate, DormandPrinceStep& step) {
                     17253.0 / 339200 * k5 + 22.0 / 525 * k6 - 1.0 / 40 * k7);
   step.probe = h * (slope7 - slope6);
   step.probe_rate = k7 - k6;
-  step.dense[0] = h * k1 - h * slope7;
-  step.dense[1] = h * slope7 - h * k7 - step.dense[0];
-  step.dense[2] =
-      h * (-12715105075.0 / 11282082432 * k1 + 87487479700.0 / 32700410799 * k3 -
-           10690763975.0 / 1880347072 * k4 + 701980252875.0 / 199316789632 * k5 -
-           1453857185.0 / 822651844 * k6 + 69997945.0 / 29380423 * k7);
   return std::numeric_limits<double>::infinity();
 }
 

@@ -27,7 +27,7 @@ PathLimits::Values PathLimits::at(const SeatGeometry& geometry, const Seat& seat
           geometry.clearance(seat, {q[0], open_tilt}),
           seat.side == 0 ? std::numeric_limits<double>::infinity()
                          : seat.side * q[1] * reach_,
-          model_->region.is_whole(X_HO) == whole ? reach_ : -reach_};
+          whole ? model_->region.whole_margin(X_HO) : -model_->region.whole_margin(X_HO)};
 }
 
 Obstacle PathLimits::obstacle(Limit limit, const Seat& seat) const {

@@ -2,9 +2,9 @@
 /// the world and the hand moves; seen from the hand, the pusher follows the path below.
 ///
 /// The pusher frame P coincides with O when the push starts. Along a linear push the
-/// finger axis runs straight in P while the hand turns at a constant rate; an object that
-/// sticks to the pusher rides in P. Slide and pivot are the named cases of paper section
-/// VII.
+/// finger axis runs straight in P, or along an arc, while the hand turns at a constant
+/// rate; an object that sticks to the pusher rides in P. Slide and pivot are the named
+/// cases of paper section VII.
 #pragma once
 
 #include <variant>
@@ -13,13 +13,15 @@
 
 namespace prehensile {
 
-/// The general push: the pusher translates and turns.
+/// The general push: the pusher translates and turns. With bend = -turn its twist in the
+/// hand is constant: a screw, which turns every point of it on an arc about one centre.
 struct LinearPush {
   int contact = 0;      ///< index in Model::contacts
   double place = 0.0;   ///< [m] of the pusher's centre along t from the face's centre
   Vec2 e = {1.0, 0.0};  ///< unit, in P: direction in which the pusher moves in the hand
   double travel = 0.0;  ///< [m] >= 0, length of the finger axis' path in P
   double turn = 0.0;    ///< [rad] of the pusher in the hand over the whole push
+  double bend = 0.0;    ///< [rad] by which e turns in P over the whole push; 0: straight
 };
 
 /// Straight slide (paper VII-A): no turn; guarded against rotation of the object.

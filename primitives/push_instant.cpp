@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "primitives/ride_bound.h"
+
 namespace prehensile {
 namespace {
 
@@ -46,31 +48,36 @@ Obstacle obstacle_of(InstantStatus status) {
 }  // namespace
 
 PushInstant::PushInstant(const Model& model, const LinearPush& push, const Grasp& start,
-                         double tolerance)
+                         const TransitionOptions& options)
     : model_(&model),
       contact_(&model.contacts[push.contact]),
       push_(push),
       X_HO_start_(start.X_HO),
       geometry_(model, *contact_, push.place),
+      friction_(options.friction_model),
       speed_(push.travel + std::abs(push.turn) * 0.5 * model.L),
       force_(model.F + model.mass * contact_->g_O.norm()) {
-  options_.tolerance = std::clamp(1e-3 * tolerance / speed_, 1e-12, 1e-9);
+  options_.tolerance = std::clamp(1e-3 * options.tolerance / speed_, 1e-12, 1e-9);
 }
 
 PlanarPose PushInstant::pose(const Seat& seat, double s, const Vec2& q) const {
   return compose(pusher_pose(push_, X_HO_start_, s), geometry_.object(seat, q));
 }
 
-Obstacle PushInstant::solve(const Seat& seat, double s, const Vec2& q,
-                            Search search) noexcept {
+/// The question at this point of the path; no grasp points where the pads are lost.
+void PushInstant::pose_question(const Seat& seat, double s, const Vec2& q) noexcept {
   Answer& now = answers_[now_];
   const PlanarPose X_HP = pusher_pose(push_, X_HO_start_, s);
   const PlanarPose X_PO = geometry_.object(seat, q);
   now.X_HO = compose(X_HP, X_PO);
   // The pusher stands still in the world, so gravity is constant in P.
-  now.grasp = grasp_at(*model_, now.X_HO, rotated(-X_PO.theta, contact_->g_O));
-  if (now.grasp.count == 0) {
-    return {TransitionStatus::kPadLost, EventKind::kPadOffFace, "the pads left the face"};
+  const Vec2 g_O = rotated(-X_PO.theta, contact_->g_O);
+  if (is_ellipsoid()) {
+    const Vec2 weight_H = model_->mass * rotated(now.X_HO.theta, g_O);
+    now.grasp.w_g = wrench_of(transform(now.X_HO, model_->p_OCom), weight_H);
+    now.grasp.count = 1;
+  } else {
+    now.grasp = grasp_at(*model_, now.X_HO, g_O);
   }
   const SeatGeometry::Touch touch = geometry_.touch(seat, q);
   now.drive.count = touch.count;
@@ -78,29 +85,101 @@ Obstacle PushInstant::solve(const Seat& seat, double s, const Vec2& q,
   now.drive.n_H = rotated(X_HP.theta, touch.n_P);
   now.drive.mu = contact_->mu;
   now.drive.V_HP = pusher_twist(push_, X_HO_start_, s);
+}
 
+Obstacle PushInstant::solve(const Seat& seat, double s, const Vec2& q,
+                            Search search) noexcept {
+  pose_question(seat, s, q);
+  Answer& now = answers_[now_];
+  if (now.grasp.count == 0) {
+    return {TransitionStatus::kPadLost, EventKind::kPadOffFace, "the pads left the face"};
+  }
   ++count_;
-  options_.probe_multiplicity =
-      search == Search::kAllMotions && recedes_somewhere(now.drive);
-  now.instant = solve_planar(now.grasp, now.drive, options_, &warm_);
-  if (now.instant.status == InstantStatus::kOutOfIterations) {
-    // A looser answer is better than none; the certificate has the last word.
-    PlanarSolveOptions loose = options_;
-    loose.tolerance = kLooseTolerance;
-    now.instant = solve_planar(now.grasp, now.drive, loose, &warm_);
+  if (is_ellipsoid()) {
+    now.instant = solve_limit_surface(model_->surface(), now.grasp.w_g, now.drive);
+  } else {
+    options_.probe_multiplicity = search == Search::kAllMotions && recedes();
+    now.instant = solve_planar(now.grasp, now.drive, options_, &warm_);
+    if (now.instant.status == InstantStatus::kOutOfIterations) {
+      // A looser answer is better than none; the certificate has the last word.
+      PlanarSolveOptions loose = options_;
+      loose.tolerance = kLooseTolerance;
+      now.instant = solve_planar(now.grasp, now.drive, loose, &warm_);
+    }
   }
   const Obstacle obstacle = obstacle_of(now.instant.status);
   if (obstacle) {
     warm_.valid = false;
-  } else {
-    read(seat, now);
+    return obstacle;
   }
-  return obstacle;
+  now.solved = true;
+  now.V_HO = now.instant.V_HO;
+  now.tangential_force = 0.0;
+  for (int k = 0; k < now.drive.count; ++k) {
+    now.load[k] = now.instant.pusher[k].normal_force;
+    now.tangential_force += now.instant.pusher[k].tangential_force;
+  }
+  read(seat, now);
+  return {};
 }
+
+PushInstant::InMode PushInstant::solve_in_mode(const Seat& seat, double s, const Vec2& q,
+                                               Regime regime) noexcept {
+  pose_question(seat, s, q);
+  ++count_;
+  return take_mode(seat, regime);
+}
+
+PushInstant::InMode PushInstant::check_ride(const Seat& seat, double s) noexcept {
+  pose_question(seat, s, Vec2::Zero());
+  ++checks_;
+  return take_mode(seat, Regime::kStick);
+}
+
+PushInstant::InMode PushInstant::take_mode(const Seat& seat, Regime regime) noexcept {
+  Answer& now = answers_[now_];
+  if (now.grasp.count == 0) return InMode::kUnknown;
+  ContactModeOfPush mode;
+  if (seat.kind == SeatKind::kFlush) mode.load = ContactModeOfPush::Load::kBoth;
+  if (regime != Regime::kStick) mode.slip = regime == Regime::kSlipPlus ? 1 : -1;
+  const PlanarTwist* guess = warm_.valid ? &warm_.last.V_HO : nullptr;
+  const MotionInMode motion =
+      is_ellipsoid()
+          ? solve_limit_surface_in_mode(model_->surface(), now.grasp.w_g, now.drive, mode)
+          : solve_planar_in_mode(now.grasp, now.drive, mode, guess);
+  if (motion.exists && !motion.held) return InMode::kUnheld;
+  if (!motion.exists || !motion.advances) return InMode::kUnknown;
+  now.solved = false;
+  now.pivot = motion.pivot;
+  now.V_HO = motion.V_HO;
+  now.load = motion.normal_force;
+  now.tangential_force = motion.tangential_force[0] + motion.tangential_force[1];
+  if (warm_.valid) warm_.last.V_HO = now.V_HO;
+  read(seat, now);
+  return InMode::kMoves;
+}
+
+double PushInstant::ride_lasts(double most) const noexcept {
+  const Answer& now = answer();
+  // The ellipsoid, and pads that do not turn, resist with a constant wrench in P: loads
+  // are linear in the share, so both ends tell.
+  if (push_.bend == 0.0 && (is_ellipsoid() || push_.turn == 0.0)) return most;
+  if (is_ellipsoid()) return 0.0;
+  const double cone = contact_->mu * now.normal_force - std::abs(now.tangential_force);
+  return sure_to_last(now.grasp, now.drive, push_.turn, push_.travel * push_.bend,
+                      {now.load, cone}, most);
+}
+
+bool PushInstant::recedes() const { return recedes_somewhere(answer().drive); }
 
 Obstacle PushInstant::explained(const Obstacle& obstacle) const noexcept {
   using enum TransitionStatus;
   Obstacle found = obstacle;
+  if (is_ellipsoid()) {
+    const bool held = model_->surface().load(answer().grasp.w_g) < 1.0;
+    if (found.status != kAmbiguous || held) return found;
+    return {kFalls, EventKind::kGravityLost, "the grasp alone does not hold gravity"};
+  }
   if (obstacle.status == kPusherLost) {
     PlanarSolveOptions thorough = options_;
     thorough.probe_multiplicity = true;
@@ -111,18 +190,17 @@ Obstacle PushInstant::explained(const Obstacle& obstacle) const noexcept {
   return {kFalls, EventKind::kGravityLost, "the grasp alone does not hold gravity"};
 }
 
+/// What a twist and the forces of the pusher mean for the push.
 void PushInstant::read(const Seat& seat, Answer& answer) const noexcept {
   const PlanarDrive& drive = answer.drive;
-  const PlanarTwist V_PO = answer.instant.V_HO - drive.V_HP;
+  const PlanarTwist V_PO = answer.V_HO - drive.V_HP;
   answer.normal_force = 0.0;
-  answer.tangential_force = 0.0;
   answer.slip = 0.0;
   for (int k = 0; k < drive.count; ++k) {
     const Vec2 c = point_velocity(V_PO, drive.p_HC[k]);
     answer.lift[k] = c.dot(drive.n_H);
     answer.slip += c.dot(drive.t_H()) / drive.count;
-    answer.normal_force += answer.instant.pusher[k].normal_force;
-    answer.tangential_force += answer.instant.pusher[k].tangential_force;
+    answer.normal_force += answer.load[k];
   }
   answer.tilt_rate = seat.kind == SeatKind::kFlush ? 0.0 : V_PO[2];
 }
@@ -138,8 +216,7 @@ ModeMargin PushInstant::margin(const Seat& seat, Regime regime) const {
   margin.pressed.fill(std::numeric_limits<double>::infinity());
   if (seat.kind == SeatKind::kFlush) {
     for (int k = 0; k < 2; ++k) {
-      margin.pressed[k] =
-          now.instant.pusher[k].normal_force / force_ - now.lift[k] / speed_;
+      margin.pressed[k] = now.load[k] / force_ - now.lift[k] / speed_;
     }
   }
   const double slip = now.slip / speed_;
@@ -182,7 +259,10 @@ Sample PushInstant::sample(double s, double psi) const {
   sample.tangential_force = now.tangential_force;
   sample.slip_rate = now.slip;
   sample.status = now.instant.status;
-  sample.certificate = certify(now.grasp, now.drive, now.instant).worst;
+  sample.certificate = is_ellipsoid()
+                           ? limit_surface_residual(model_->surface(), now.grasp.w_g,
+                                                    now.drive, now.instant)
+                           : certify(now.grasp, now.drive, now.instant).worst;
   return sample;
 }
 

@@ -38,12 +38,13 @@ void PushRecord::stop(const Obstacle& obstacle, double s) {
 }
 
 Transition PushRecord::finish(const Grasp& end, double s, double error_estimate,
-                              int instants) {
+                              int instants, int checks) {
   if (!stopped()) transition_.status = TransitionStatus::kCompleted;
   transition_.end = end;
   transition_.done = s;
   transition_.error_estimate = error_estimate;
   transition_.instants = instants;
+  transition_.checks = checks;
   return transition_;
 }
 

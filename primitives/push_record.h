@@ -28,6 +28,9 @@ class PushRecord {
   /// than there is room for is stopped.
   void add(EventKind kind, double s);
 
+  /// Forgets the last event, which turned out not to be one.
+  void take_back() { --transition_.event_count; }
+
   void stop(const Obstacle& obstacle, double s);
   bool stopped() const { return transition_.status != TransitionStatus::kNotRun; }
 
@@ -35,7 +38,8 @@ class PushRecord {
   void add_slip(double length) { transition_.slipped += length; }
 
   /// The transition; one that was not stopped has been completed.
-  Transition finish(const Grasp& end, double s, double error_estimate, int instants);
+  Transition finish(const Grasp& end, double s, double error_estimate, int instants,
+                    int checks = 0);
 
  private:
   double certificate_tolerance_;

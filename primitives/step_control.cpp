@@ -27,14 +27,18 @@ double StepControl::next(double s, double cap) {
   return h >= left * (1.0 - 1e-12) ? left : h;
 }
 
-bool StepControl::accepts(double h, double error) {
-  const double allowed = tolerance_ * std::max(h, kLeastShare);
+double StepControl::allowed(double h) const {
+  return tolerance_ * std::max(h, kLeastShare);
+}
+
+bool StepControl::accepts(double h, double error, int order) {
+  const double allowed = this->allowed(h);
   const bool accepted = error <= allowed || h <= location_;
   // Stages of a step that was too long may have met a block where there is none.
   if (!accepted) blocked_ = kNever;
   // A step that was cut for another reason says nothing about longer ones.
   if (!accepted || h >= 0.999 * natural_) {
-    const double factor = 0.9 * std::pow(allowed / std::max(error, 1e-300), 0.2);
+    const double factor = 0.9 * std::pow(allowed / std::max(error, 1e-300), 1.0 / order);
     const double most = was_refused_ ? 1.0 : 3.0;
     natural_ = std::clamp(h * std::clamp(factor, 0.2, most), 0.5 * location_, longest_);
   }

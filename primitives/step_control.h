@@ -19,9 +19,13 @@ class StepControl {
   /// Length of the next step from s; at most `cap`, and exactly 1 - s if it is the last.
   double next(double s, double cap);
 
-  /// Whether a step of length h with this error [m] is good enough. Steps may spend their
-  /// share of the tolerance, so that all errors add up to it.
-  bool accepts(double h, double error);
+  /// Whether a step of length h with this error [m], which grows with the power `order`
+  /// of h, is good enough. Steps may spend their share of the tolerance, so that all
+  /// errors add up to it.
+  bool accepts(double h, double error, int order = 5);
+
+  /// The error that a step of length h may have [m].
+  double allowed(double h) const;
 
   /// The next step shall have this length.
   void land(double length) { landing_ = length; }
@@ -32,6 +36,10 @@ class StepControl {
 
   /// The push has come to s.
   void passed(double s);
+
+  /// Where no motion was found, and not yet that there is one; infinity: nowhere.
+  double blocked() const { return blocked_; }
+  void unblock() { blocked_ = kNever; }
 
  private:
   double tolerance_;

@@ -20,8 +20,9 @@ Guard guard_of(const Push& push) {
 
 bool is_finite(const LinearPush& push, const Grasp& start) {
   return std::isfinite(push.place) && push.e.allFinite() && std::isfinite(push.travel) &&
-         std::isfinite(push.turn) && std::isfinite(start.X_HO.x) &&
-         std::isfinite(start.X_HO.y) && std::isfinite(start.X_HO.theta);
+         std::isfinite(push.turn) && std::isfinite(push.bend) &&
+         std::isfinite(start.X_HO.x) && std::isfinite(start.X_HO.y) &&
+         std::isfinite(start.X_HO.theta);
 }
 
 /// Why the push cannot even begin; empty if it can.

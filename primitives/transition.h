@@ -51,12 +51,20 @@ struct Event {
   double s = 0.0;  ///< share of the push at which it happened
 };
 
+/// What resists the motion of the object in the grasp.
+enum class FrictionModel {
+  kPads,      ///< the pads, point by point: the exact planar mechanics
+  kEllipsoid  ///< the closed-form limit surface of the whole pads: several times faster,
+              ///< exact only for grasps that have that surface
+};
+
 struct TransitionOptions {
   double tolerance = 1e-6;  ///< [m] accepted error of the end pose (angles weigh c)
   double max_step = 0.05;   ///< share of the push between instants that are looked at;
                             ///< lower it to see contact modes that last for less
   int max_steps = 2000;     ///< attempted steps; raise for stiff pushes at fine tolerance
   double certificate_tolerance = 1e-6;
+  FrictionModel friction_model = FrictionModel::kPads;  ///< not for rolls
 };
 
 /// Every option is in its range.
@@ -87,6 +95,8 @@ struct Transition {
   double min_push_force = kNan;  ///< [N]
   double worst_certificate = kNan;
   int instants = 0;  ///< mechanics calls
+  int checks = 0;    ///< of sticking lines, where the motion is known and only the
+                     ///< pusher's forces are looked at; a small part of an instant
   int event_count = 0;
   std::array<Event, kMaxEvents> events;
 

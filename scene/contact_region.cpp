@@ -93,13 +93,19 @@ ContactPoints ContactRegion::at(const PlanarPose& X_HO) const noexcept {
 }
 
 bool ContactRegion::is_whole(const PlanarPose& X_HO) const noexcept {
-  if (fixed_in_hand_) return true;
+  return whole_margin(X_HO) >= 0.0;
+}
+
+double ContactRegion::whole_margin(const PlanarPose& X_HO) const noexcept {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  if (fixed_in_hand_) return kNever;
   const Vec2 p_OF = finger_in_object(X_HO);
-  if (!round_side_) return depth_inside(outline_, p_OF) >= pad_reach_;
+  if (!round_side_) return depth_inside(outline_, p_OF) - pad_reach_;
+  if (!clips_) return kNever;
   const Vec2 axis = (generator_b_ - generator_a_).normalized();
   const double room =
       0.5 * (generator_b_ - generator_a_).norm() - std::abs(p_OF.dot(axis));
-  return !clips_ || room >= pad_reach_;
+  return room - pad_reach_;
 }
 
 ContactPoints ContactRegion::clipped_by_face(const PlanarPose& X_HO) const noexcept {

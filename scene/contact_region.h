@@ -55,6 +55,11 @@ class ContactRegion {
   /// The pad lies wholly on the face at this pose, so `at` equals the full pad.
   bool is_whole(const PlanarPose& X_HO) const noexcept;
 
+  /// How far the finger axis may move before the pad begins to overhang [m]; negative
+  /// where it does overhang: how far it has to move back. Infinite if it never does. It
+  /// changes by no more than the finger axis moves.
+  double whole_margin(const PlanarPose& X_HO) const noexcept;
+
   /// Torque radius of the whole region: largest torque about the finger axis over
   /// (friction x normal load), by the points themselves [m].
   double torque_radius() const { return torque_radius_; }

@@ -189,6 +189,7 @@ TEST(Program, JsonIsOneObjectAndNothingElse) {
        {"plan " + kScene + " --json -o " + plan, "check --json " + plan,
         "inspect --json " + kScene, "query instant --json " + kScene,
         "query push --json " + kScene + " --travel-mm 5",
+        "query push --json --grip-range " + kScene + " --travel-mm 5",
         std::string("query instant --json --roll problems/paper/roll.yaml")}) {
     const Outcome outcome = run_program(arguments);
     EXPECT_LE(outcome.exit_code, 1) << arguments << outcome.err;

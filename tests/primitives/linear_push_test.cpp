@@ -53,32 +53,6 @@ TEST(LinearPush, TracedAndUntracedPushesAgree) {
   }
 }
 
-RandomPush mirrored(RandomPush c) {
-  const auto flip = [](Vec2& v) { v.y() = -v.y(); };
-  flip(c.scene.g_W);
-  c.scene.pushers[0].normal_angle *= -1.0;
-  c.push.place *= -1.0;
-  flip(c.push.e);
-  c.push.turn *= -1.0;
-  c.scene.start.X_HO.y *= -1.0;
-  c.scene.start.X_HO.theta *= -1.0;
-  return c;
-}
-
-TEST(LinearPush, MirrorImagesMoveAsMirrorImages) {
-  for (int seed = 0; seed < 300; ++seed) {
-    const RandomPush c = random_push(1, seed);
-    const RandomPush m = mirrored(c);
-    const TransitionOptions options{.tolerance = 1e-7};
-    const Transition one = apply(prepare(c.scene), c.scene.start, c.push, options);
-    const Transition other = apply(prepare(m.scene), m.scene.start, m.push, options);
-    ASSERT_EQ(one.status, other.status) << seed;
-    EXPECT_NEAR(one.end.X_HO.x, other.end.X_HO.x, 2e-7) << seed;
-    EXPECT_NEAR(one.end.X_HO.y, -other.end.X_HO.y, 2e-7) << seed;
-    EXPECT_NEAR(one.end.X_HO.theta, -other.end.X_HO.theta, 2e-5) << seed;
-  }
-}
-
 // Quasi-static and rate-independent: only ratios of forces matter.
 TEST(LinearPush, ForcesScaleWithGripAndGravity) {
   for (int seed = 0; seed < 200; ++seed) {
@@ -97,33 +71,6 @@ TEST(LinearPush, ForcesScaleWithGripAndGravity) {
           << seed;
     }
   }
-}
-
-TEST(LinearPush, PushInTwoPartsEndsWhereTheWholePushEnds) {
-  int compared = 0;
-  for (int seed = 0; seed < 300; ++seed) {
-    const RandomPush c = random_push(1, seed);
-    const Model model = prepare(c.scene);
-    const TransitionOptions options{.tolerance = 1e-8};
-    const Transition whole = apply(model, c.scene.start, c.push, options);
-    // Only a push that ends flush may be cut: the second part starts flush.
-    if (!whole.completed() || has_event(whole, EventKind::kCorner) ||
-        model.contacts[0].is_point || std::isfinite(model.contacts[0].half_length)) {
-      continue;
-    }
-    LinearPush first = c.push;
-    first.travel *= 0.4;
-    first.turn *= 0.4;
-    const Transition one = apply(model, c.scene.start, first, options);
-    LinearPush second = c.push;
-    second.travel *= 0.6;
-    second.turn *= 0.6;
-    const Transition two = apply(model, one.end, second, options);
-    ASSERT_TRUE(one.completed() && two.completed()) << seed;
-    EXPECT_LT(distance(two.end.X_HO, whole.end.X_HO, model.c), 1e-7) << seed;
-    ++compared;
-  }
-  EXPECT_GT(compared, 30);
 }
 
 TEST(LinearPush, TighterToleranceConverges) {
@@ -174,27 +121,6 @@ TEST(LinearPush, EventLocationsConverge) {
   }
 }
 
-// An estimate, not a bound: where the centre of rotation passes close to a pad point, or
-// an event only grazes, it may be a few times too small.
-TEST(LinearPush, ErrorEstimateCoversTheError) {
-  int compared = 0;
-  int above = 0;
-  for (int seed = 1000; seed < 1400; ++seed) {
-    const RandomPush c = random_push(1, seed);
-    const Model model = prepare(c.scene);
-    const Transition reference =
-        apply(model, c.scene.start, c.push, {.tolerance = 1e-11, .max_steps = 20000});
-    const Transition t = apply(model, c.scene.start, c.push);
-    ASSERT_EQ(t.status, reference.status) << seed;
-    const double error = distance(t.end.X_HO, reference.end.X_HO, model.c);
-    EXPECT_LT(error, 6.0 * t.error_estimate + 1e-11) << seed << " " << t.reason;
-    EXPECT_LT(error, 2e-6) << seed;
-    above += error > t.error_estimate + 1e-11 ? 1 : 0;
-    ++compared;
-  }
-  EXPECT_LE(above, compared / 100);
-}
-
 // Point pushing is unstable when the pusher trails the centre of friction: no motion may
 // be made up there, and forces stay within the friction cone.
 TEST(LinearPush, SamplesObeyTheFrictionCone) {
@@ -226,8 +152,48 @@ TEST(LinearPush, UsesNoHeapWithoutATrace) {
     const Push push = c.push;
     const testing::NoHeapScope scope;
     const Transition t = apply(model, c.scene.start, push);
-    EXPECT_LE(scope.allocations(), 0) << name(t.status);
+    const Transition fast =
+        apply(model, c.scene.start, push, {.friction_model = FrictionModel::kEllipsoid});
+    EXPECT_LE(scope.allocations(), 0) << name(t.status) << name(fast.status);
   }
+}
+
+// A point that trails a tiny pad over a long way: its swing dies out in a share of the
+// push that no explicit method could follow with the steps that are taken here.
+TEST(LinearPush, StiffSlipsAreTakenInLongSteps) {
+  int stiff = 0;
+  int slow = 0;
+  int compared = 0;
+  for (int seed = 0; seed < 60; ++seed) {
+    RandomPush c = random_push(9, seed);
+    c.scene.object.shape = BoxShape{{0.1, 0.1, 0.02}};
+    c.scene.pushers[0].feature = PointFeature{};
+    c.scene.g_W.setZero();
+    c.push.travel = 0.03;
+    const Model model = prepare(c.scene);
+    const TransitionOptions options{.friction_model = FrictionModel::kEllipsoid};
+    for (const double radius : {1e-3, 1e-4}) {
+      RandomPush tiny = c;
+      tiny.scene.gripper.pad = DiscPad{radius};
+      const Model small = prepare(tiny.scene);
+      const Transition t = apply(small, c.scene.start, c.push, options);
+      if (!t.completed() || t.slipped < 1e-3) continue;
+      ++stiff;
+      slow += t.instants > 1500 ? 1 : 0;
+      const TransitionOptions fine{.tolerance = 1e-9,
+                                   .max_step = 0.01,
+                                   .max_steps = 20000,
+                                   .friction_model = FrictionModel::kEllipsoid};
+      const Transition reference = apply(small, c.scene.start, c.push, fine);
+      if (!reference.completed()) continue;
+      EXPECT_LT(distance(t.end.X_HO, reference.end.X_HO, small.c), 3e-6) << seed;
+      ++compared;
+    }
+  }
+  // Two of the tiniest pads come through a swing that no step can cross.
+  EXPECT_LE(slow, stiff / 10);
+  EXPECT_GT(compared, 25);
+  EXPECT_GT(stiff, 25);
 }
 
 TEST(LinearPush, RandomPushesAreCertifiedOrStopForAPhysicalReason) {

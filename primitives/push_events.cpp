@@ -1,0 +1,160 @@
+/// Where the motion of a step changes or ends.
+#include <algorithm>
+#include <cmath>
+
+#include "primitives/push_run.h"
+#include "primitives/root.h"
+
+namespace prehensile {
+namespace {
+
+using enum PushInstant::Search;
+
+/// Length below which a limit does not count as crossed [m].
+constexpr double kRoundOff = 1e-12;
+
+/// Share of a step to which its own events are located: rates do not jump there, so that
+/// events cost no accuracy, and limits are met as closely as numbers allow.
+constexpr double kResolution = 1e-11;
+
+/// Where in a step the defect of its polynomial changes fastest.
+constexpr double kSteepest = 0.09;
+
+/// A step may be continued beyond its end up to this many times its length, where its
+/// error is larger by this factor.
+constexpr double kContinued = 2.5;
+constexpr double kContinuationError = 1e3;
+
+}  // namespace
+
+Crossing PushRun::first_crossing() {
+  Crossing first;
+  const PathLimits::Values at_start = limits(s_, q_);
+  const PathLimits::Values at_end = limits(s_ + step_.h, step_.y_end);
+  for (int i = 0; i < PathLimits::kCount; ++i) {
+    if (at_end[i] >= -kRoundOff) continue;
+    const auto limit = [&](double x) { return limits(s_ + x * step_.h, step_.at(x))[i]; };
+    // A seat begins on its limit: does the step first leave it?
+    double low = 0.0;
+    double at_low = at_start[i];
+    for (const double x : {1e-6, 1e-3, 0.05, 0.5}) {
+      if (at_low > 0.0) break;
+      low = x;
+      at_low = limit(x);
+    }
+    const double at = at_low <= 0.0
+                          ? 0.0
+                          : falling_root(limit, low, at_low, 1.0, at_end[i], kResolution);
+    if (at < first.at) first = {at, static_cast<Limit>(i)};
+  }
+  const double noise = instant_.noise();
+  double high = 1.0;
+  double margin_at_high = mode_margin();
+  if (middle_margin_ < -noise) {
+    high = 0.5;
+    margin_at_high = middle_margin_;
+  } else if (dip_at_ < 1.0) {
+    high = dip_at_;
+    margin_at_high = dip_margin_;
+  }
+  if (margin_at_high >= -noise) return first;
+  double low = 0.0;
+  double margin_at_low = margin_;
+  if (high == 1.0 && middle_margin_ > 0.0 && !rides()) {
+    low = 0.5;
+    margin_at_low = middle_margin_;
+  }
+  if (margin_at_low <= 0.0) return {0.0, {}};
+  const auto margin = [&](double x) {
+    const double s = s_ + x * step_.h;
+    Vec2 rate;
+    const bool found = rides() ? instant_.check_ride(seat_, s) == InMode::kMoves
+                               : rate_in_mode(s, step_.at(x), rate);
+    // Where no motion exists the mode has certainly changed.
+    return found ? mode_margin() : -1.0;
+  };
+  instant_.set_aside();
+  const double at =
+      falling_root(margin, low, margin_at_low, high, margin_at_high, kResolution);
+  instant_.bring_back();
+  if (at < first.at) first = {at, {}};
+  return first;
+}
+
+/// Whether the state inside the step is as good as steps have to be. What the polynomial
+/// lacks is a constant times the square of its distance from the nodes, x (x - 1/2)
+/// (x - 1); the constant is read off the rate where the slope of that is greatest.
+bool PushRun::is_close(double at) {
+  const double x = at < 0.5 ? kSteepest : 1.0 - kSteepest;
+  const auto node = [](double z) { return z * (z - 0.5) * (z - 1.0); };
+  const double slope =
+      2.0 * std::abs(node(x)) * (0.5 - 3.0 * kSteepest * (1.0 - kSteepest));
+  Vec2 rate;
+  instant_.set_aside();
+  const bool found = rate_in_mode(s_ + x * step_.h, step_.at(x), rate);
+  instant_.bring_back();
+  inside_error_ = 0.0;
+  if (!found) return true;
+  inside_error_ =
+      step_.h * length_of(rate - step_.rate_at(x)) * node(at) * node(at) / slope;
+  return landed_ || inside_error_ <= control_.allowed(step_.h);
+}
+
+/// There is no motion at `at`: steps close in on it.
+void PushRun::block(double at) {
+  if (control_.is_at_block(s_, at)) stop_at_block(s_ + control_.location());
+}
+
+/// After a step towards a place without motion: is that place still there, now that it is
+/// nearer? If the step is good enough to be continued up to it, the end of the motion is
+/// located on its continuation.
+void PushRun::look_at_block() {
+  const double x = (control_.blocked() - step_.s) / step_.h;
+  if (x > kContinued) return;
+  double high = x;
+  const auto goes_on = [this](double share) {
+    Vec2 rate;
+    return rate_in_mode(step_.s + share * step_.h, step_.at(share), rate);
+  };
+  instant_.set_aside();
+  if (goes_on(high)) {
+    control_.unblock();
+  } else if (kContinuationError * step_error_ < options_.tolerance) {
+    double low = 1.0;
+    const double resolution = control_.location() / step_.h;
+    bool lawful = true;
+    while (lawful && high - low > resolution) {
+      const double share = 0.5 * (low + high);
+      const bool found = goes_on(share);
+      lawful = !found || mode_margin() >= -instant_.noise();
+      (found ? low : high) = share;
+    }
+    const double end = step_.s + low * step_.h;
+    const PathLimits::Values left = limits(end, step_.at(low));
+    Vec2 rate = Vec2::Zero();
+    const bool found = rate_in_mode(end, step_.at(low), rate);
+    const double lacks = length_of(rate - step_.rate_at(low));
+    const double continued = (low - 1.0) * step_.h * lacks;
+    lawful = lawful && found && continued <= control_.allowed(step_.h);
+    if (lawful && *std::min_element(left.begin(), left.end()) >= 0.0) {
+      error_ += continued;
+      record_.add_slip(std::abs(step_.at(low)[0] - q_[0]));
+      q_ = step_.at(low);
+      s_ = end;
+      return stop_at_block(step_.s + high * step_.h);
+    }
+  }
+  instant_.bring_back();
+}
+
+/// Ends the push where its motion ends; `beyond` is past that, and has the reason.
+void PushRun::stop_at_block(double beyond) {
+  error_ += (beyond - s_) * instant_.speed();
+  if (traced_ && !instant_.solve(seat_, s_, q_)) record_.add(instant_.sample(s_, psi_));
+  if (obstacle_.status == TransitionStatus::kFalls) return record_.stop(obstacle_, s_);
+  const Vec2 q = rides() ? q_ : Vec2(q_ + (beyond - s_) * rate_);
+  const Obstacle met = instant_.solve(seat_, beyond, q, kAllMotions);
+  record_.stop(instant_.explained(met ? met : obstacle_), s_);
+}
+
+}  // namespace prehensile

@@ -1,0 +1,230 @@
+/// Steps of a push that is integrated.
+#include <algorithm>
+#include <cmath>
+
+#include "primitives/dormand_prince.h"
+#include "primitives/push_run.h"
+
+namespace prehensile {
+namespace {
+
+using enum PushInstant::Search;
+
+/// Powers of the step length with which the errors of the methods fall.
+constexpr int kOrder = 6;
+constexpr int kStiffOrder = 5;
+
+/// Step times rate of decay beyond which an explicit step is at the border of its
+/// stability, and below which a stiff one is not needed.
+constexpr double kStiff = 2.5;
+constexpr double kNotStiff = 1.0;
+
+/// Longest step with an overhanging pad over the wanted spacing of checks.
+constexpr double kOverhangStep = 4.0;
+
+/// Embedded over allowed error of a whole step whose halves need not be tried, and over
+/// the error that these would have.
+constexpr double kHopeless = 500.0;
+constexpr double kHopelessIsMore = 100.0;
+
+/// Allowed over computed error of a step: smooth, and with a kink.
+constexpr double kDoubt = 1.5;
+constexpr double kRoughness = 3.0;
+
+/// Reported over allowed error of a step with a kink, where the error is random.
+constexpr double kDoubtOfRough = 9.0;
+
+/// A place in a step that is far from all its stages, and the share of the change that
+/// its rate would make over the step that counts as error.
+constexpr double kUnseen = 0.35;
+constexpr double kOfUnseen = 0.015;
+
+/// Small changes for derivatives of the rate: share of the push, angle.
+constexpr double kNudge = 1e-6;
+
+/// Bound on the exponent of the growth of errors over one step.
+constexpr double kMostGrowth = 10.0;
+
+/// Share of the decay of errors that counts: not all directions decay alike.
+constexpr double kContraction = 0.2;
+
+}  // namespace
+
+/// Computes the step and its end; false if there is no motion or the error is too large.
+bool PushRun::integrate() {
+  // The points of a pad that overhangs move over it, with a kink now and then.
+  const bool is_smooth = whole_ || options_.friction_model == FrictionModel::kEllipsoid;
+  step_.h = control_.next(s_, is_smooth ? kNever : kOverhangStep * options_.max_step);
+  const double middle = s_ + 0.5 * step_.h;
+  int low_pivot = 99, high_pivot = -2;
+  least_margin_ = dip_at_ = kNever;
+  const auto rate = [this, middle, &low_pivot, &high_pivot](double s, const Vec2& q,
+                                                            Vec2& out) {
+    if (!rate_in_mode(s, q, out)) return false;
+    if (s == middle) middle_margin_ = mode_margin();
+    low_pivot = std::min(low_pivot, instant_.pivot());
+    high_pivot = std::max(high_pivot, instant_.pivot());
+    if (const double margin = mode_margin(); margin < least_margin_) {
+      least_margin_ = margin;
+      least_at_ = s;
+    }
+    return true;
+  };
+  const auto end_rate = [this](double s, const Vec2& q, Vec2& out) {
+    return rate_at_end(s, q, out);
+  };
+  const auto is_hopeless = [this](const Vec2& error) {
+    return length_of(error) > kHopeless * control_.allowed(step_.h);
+  };
+  double failed_at = kNever;
+  if (stiff_) {
+    RateDerivatives at_start;
+    double known_at = kNever;
+    const auto method = [&](const auto& f, BaseStep& base) {
+      if (base.s != known_at) at_start = derivatives(base);
+      known_at = base.s;
+      return rosenbrock(f, at_start, base);
+    };
+    failed_at = doubled(method, rate, end_rate, is_hopeless, kStiffOrder, true, step_);
+  } else {
+    const auto method = [](const auto& f, BaseStep& base) {
+      return dormand_prince(f, base);
+    };
+    failed_at = doubled(method, rate, end_rate, is_hopeless, kOrder, false, step_);
+  }
+  if (failed_at != kNever) {
+    block(failed_at);
+    return false;
+  }
+  if (step_.gave_up) {
+    (void)control_.accepts(step_.h, length_of(step_.error) / kHopelessIsMore, kOrder);
+    return false;
+  }
+  step_error_ = (step_.is_smooth ? kDoubt : kRoughness) * length_of(step_.error);
+  const bool accepted =
+      control_.accepts(step_.h, step_error_, stiff_ ? kStiffOrder : kOrder);
+  watch_stiffness(accepted);
+  if (!accepted) return false;
+  doubt_step(low_pivot != high_pivot);
+  look_inside();
+  return true;
+}
+
+/// What the step's error may be, with what its computation cannot see: a kink between
+/// the stages, which a place that no stage looked at may show, and the random size of the
+/// error where there is one.
+void PushRun::doubt_step(bool kink) {
+  if (kink || !step_.is_smooth) step_error_ *= kDoubtOfRough;
+  instant_.set_aside();
+  Vec2 rate;
+  if (rate_in_mode(s_ + kUnseen * step_.h, step_.at(kUnseen), rate)) {
+    const double lacks = step_.h * length_of(rate - step_.rate_at(kUnseen));
+    step_error_ = std::max(step_error_, kOfUnseen * lacks);
+  }
+  instant_.bring_back();
+}
+
+/// At the end of a step the instant is asked whether its answer is that of the mode, and
+/// no other.
+bool PushRun::rate_at_end(double s, const Vec2& q, Vec2& out) {
+  obstacle_ = instant_.solve(seat_, s, q, kAllMotions);
+  if (obstacle_ || mode_margin() < -instant_.noise()) {
+    // Beyond the end of the mode, if the mode says so.
+    const Obstacle met = obstacle_;
+    instant_.set_aside();
+    const bool beyond = instant_.solve_in_mode(seat_, s, q, regime_) == InMode::kMoves &&
+                        mode_margin() < -instant_.noise();
+    if (!beyond) instant_.bring_back();
+    if (!beyond && met) return false;
+    obstacle_ = {};
+  }
+  out = instant_.rate();
+  return true;
+}
+
+/// Rate within the contact mode, also beyond its end; where the mode alone does not tell
+/// the motion, that of the instant.
+bool PushRun::rate_in_mode(double s, const Vec2& q, Vec2& out) {
+  const InMode found = instant_.solve_in_mode(seat_, s, q, regime_);
+  if (found != InMode::kMoves) {
+    obstacle_ = found == InMode::kUnheld ? kUnheldPush : instant_.solve(seat_, s, q);
+    if (obstacle_) return false;
+  }
+  out = instant_.rate();
+  return true;
+}
+
+RateDerivatives PushRun::derivatives(const BaseStep& base) {
+  RateDerivatives found;
+  const double nudge = std::min(kNudge, 0.5 * base.h);
+  Vec2 rate;
+  if (rate_in_mode(base.s + nudge, base.y, rate)) found.by_s = (rate - base.rate) / nudge;
+  const bool slips = regime_ != Regime::kStick;
+  const bool tilts = seat_.kind != SeatKind::kFlush;
+  for (const int k : {0, 1}) {
+    if (!(k == 0 ? slips : tilts)) continue;
+    Vec2 q = base.y;
+    // Small against the way in which the object swings to where it trails.
+    const double swing = kNudge * std::min(1.0, reach_ / model_.L);
+    const double change = k == 0 ? swing * model_.L : swing;
+    q[k] += change;
+    if (!rate_in_mode(base.s, q, rate)) continue;
+    found.by_state.col(k) = (rate - base.rate) / change;
+  }
+  stiffness_ = base.h * found.by_state.cwiseAbs().maxCoeff();
+  return found;
+}
+
+/// Where a stage seemed to leave a contact mode that holds in the middle and at the end
+/// of the step, the place itself is looked at.
+void PushRun::look_inside() {
+  if (least_margin_ >= -instant_.noise() || middle_margin_ < -instant_.noise() ||
+      mode_margin() < -instant_.noise()) {
+    return;
+  }
+  const double x = (least_at_ - s_) / step_.h;
+  instant_.set_aside();
+  Vec2 rate;
+  const bool found = rate_in_mode(least_at_, step_.at(x), rate);
+  if (found && mode_margin() < -instant_.noise()) {
+    dip_at_ = x;
+    dip_margin_ = mode_margin();
+  }
+  instant_.bring_back();
+}
+
+/// What an error of the coordinates at the end of the step makes of the pose [m].
+double PushRun::length_of(const Vec2& error) const {
+  const PlanarPose one = instant_.geometry().object(seat_, step_.y_end);
+  const PlanarPose other = instant_.geometry().object(seat_, step_.y_end - error);
+  return Vec3(one.x - other.x, one.y - other.y, reach_ * error[1]).norm();
+}
+
+/// Explicit steps that are kept short by stability call for a stiff method, and its steps
+/// for an explicit one where that would do as well.
+void PushRun::watch_stiffness(bool accepted) {
+  if (stiff_) {
+    stiffness_seen_ = accepted && stiffness_ < kNotStiff ? stiffness_seen_ - 1 : 2;
+    stiff_ = stiffness_seen_ > 0;
+    return;
+  }
+  const Vec2 lengths(1.0, reach_);
+  const double apart = step_.probe.cwiseProduct(lengths).norm();
+  const double change = 0.5 * step_.h * step_.probe_rate.cwiseProduct(lengths).norm();
+  stiffness_seen_ = change > kStiff * apart ? stiffness_seen_ + 1 : 0;
+  stiff_ = stiffness_seen_ >= 2;
+}
+
+/// How much of an error made before this step is there after it, by the change of rate
+/// between two states at its end. A pusher that trails the pads is unstable.
+double PushRun::growth(double share) const {
+  const Vec2 lengths(1.0, reach_);
+  const Vec2 apart = step_.probe.cwiseProduct(lengths);
+  const Vec2 rate = step_.probe_rate.cwiseProduct(lengths);
+  if (!(apart.norm() > 1e3 * kRounding * instant_.speed() * step_.h)) return 1.0;
+  const double exponent = share * step_.h * apart.dot(rate) / apart.squaredNorm();
+  const double trusted = exponent < 0.0 ? kContraction * exponent : exponent;
+  return std::exp(std::clamp(trusted, -kMostGrowth, kMostGrowth));
+}
+
+}  // namespace prehensile

@@ -114,8 +114,13 @@ bool SpatialSearch::solve_stubbornly() {
   if (attempt({.r = 3.0, .pace = 1e-4}, kBudget)) return true;
   if (approach_friction() || approach_compliance() || approach_statics()) return true;
   // Small paces suit a pusher that all but grazes, large ones an object that swings.
-  const std::array<NewtonStart, 11> slow = {
+  const std::array<NewtonStart, 16> slow = {
       {{.r = 3.0, .pace = 30.0},
+       {.r = 3.0, .pace = 10.0},
+       {.r = 3.0, .pace = 100.0},
+       {.r = 3.0, .e = 0.1, .pace = 1e3},
+       {.v = along, .r = 3.0, .e = 0.01, .pace = 1e3},
+       {.v = along, .r = 0.03, .e = 0.1, .pace = 1e3},
        {.r = 3.0, .pace = 1e3},
        {.v = along, .r = 3.0, .e = 10.0},
        {.r = 30.0, .e = 10.0, .pace = 30.0},

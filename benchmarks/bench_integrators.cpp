@@ -9,6 +9,7 @@
 /// Usage: bench_integrators [--quick] [--pushes N] [--seed S] [-o FILE] [--charts FILE]
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <map>
 #include <string>
 #include <vector>
@@ -327,5 +328,10 @@ int run(int count, char** arguments) {
 }  // namespace prehensile::benchmarks
 
 int main(int count, char** arguments) {
-  return prehensile::benchmarks::run(count, arguments);
+  try {
+    return prehensile::benchmarks::run(count, arguments);
+  } catch (const std::exception& fault) {
+    std::fprintf(stderr, "error: %s\n", fault.what());
+    return 3;
+  }
 }

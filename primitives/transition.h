@@ -1,11 +1,12 @@
 /// The transition function: a push goes in, a new in-hand pose comes out, with the forces
 /// along the way, the events, an error estimate and the reason for stopping.
 ///
-/// Each instant is solved by the exact planar mechanics (roll: the cross-section) and
-/// certified. While the pusher sticks, the object follows the pusher's exact rigid
-/// motion; while it slips or tips, the twist is integrated with adaptive steps
-/// (Dormand-Prince 5(4)) and the changes of contact mode are located. Where the pusher
-/// recedes somewhere, motions need not be unique: all contact modes are tried there.
+/// Instants are solved by the exact planar mechanics (roll: the cross-section) or over
+/// the ellipsoid, and certified at the ends of steps and at events. While a line sticks,
+/// the object follows the pusher's exact rigid motion; otherwise the twist is integrated
+/// with adaptive steps, explicit (Dormand-Prince 5(4)) or stiff (RODAS), and the changes
+/// of contact mode are located. Where the pusher recedes somewhere, motions need not be
+/// unique: all contact modes are tried there. docs/primitives.md tells it at length.
 #pragma once
 
 #include <array>
@@ -60,9 +61,11 @@ enum class FrictionModel {
 
 struct TransitionOptions {
   double tolerance = 1e-6;  ///< [m] accepted error of the end pose (angles weigh c)
-  double max_step = 0.05;   ///< share of the push between instants that are looked at;
-                            ///< lower it to see contact modes that last for less
-  int max_steps = 2000;     ///< attempted steps; raise for stiff pushes at fine tolerance
+  double max_step = 0.05;   ///< share of the push between samples of a trace, and unit of
+                           ///< the longest steps: ten (ellipsoid: twenty) of it where the
+                           ///< object slips or turns; lower it to see contact modes that
+                           ///< last for less than a thirtieth of such a step
+  int max_steps = 2000;  ///< attempted steps; raise for stiff pushes at fine tolerance
   double certificate_tolerance = 1e-6;
   FrictionModel friction_model = FrictionModel::kPads;  ///< not for rolls
 };
@@ -89,7 +92,8 @@ struct Transition {
   std::string_view reason;       ///< static text for people; empty if completed
   Grasp end;                     ///< pose where the push ended
   double done = 0.0;             ///< share of the push, 0..1
-  double error_estimate = kNan;  ///< [m] of the end pose; seldom too small, no bound
+  double error_estimate = kNan;  ///< [m] of the end pose; no bound: within a few times
+                                 ///< the error as a rule (docs/benchmarks.md)
   double slipped = 0.0;          ///< [m] path of the contact along the pusher
   double max_push_force = kNan;  ///< [N]
   double min_push_force = kNan;  ///< [N]

@@ -1,5 +1,7 @@
 #include "scene/contact_region.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "scene/outline.h"
@@ -133,6 +135,28 @@ TEST(ContactRegion, ACanIsTouchedAlongALine) {
   EXPECT_EQ(region.at(pose_from_finger({0.0, 0.01}, 0.0)).count, 0);
   EXPECT_NEAR(region.at(pose_from_finger({0.05, 0.0}, 0.0)).coverage, 0.5, 1e-12);
   EXPECT_FALSE(region.is_isotropic());
+}
+
+// The margin changes by no more than the finger axis moves, and is positive exactly where
+// the pad does not overhang.
+TEST(ContactRegion, WholeMarginIsADistance) {
+  const ContactRegion region(box_in(RectanglePad{{0.02, 0.01}}), 16);
+  const PlanarPose centre = pose_from_finger({0.0, 0.0}, 0.3);
+  ASSERT_TRUE(region.is_whole(centre));
+  double last = region.whole_margin(centre);
+  bool overhangs = false;
+  for (int i = 1; i <= 100; ++i) {
+    const PlanarPose X_HO = pose_from_finger({0.0005 * i, 0.0002 * i}, 0.3);
+    const double margin = region.whole_margin(X_HO);
+    EXPECT_LE(std::abs(margin - last), std::hypot(0.0005, 0.0002) + 1e-15);
+    EXPECT_EQ(region.is_whole(X_HO), margin >= 0.0);
+    if (region.at(X_HO).coverage < 1.0 - 1e-9) {
+      EXPECT_LT(margin, 0.0);
+      overhangs = true;
+    }
+    last = margin;
+  }
+  EXPECT_TRUE(overhangs);
 }
 
 TEST(ContactRegion, EvaluationUsesNoHeap) {

@@ -125,43 +125,6 @@ Step step_of(InstantParameter parameter) {
   }
 }
 
-std::string sensitivity_text(const InstantReport& report) {
-  if (report.sensitivities.empty()) return {};
-  if (!report.sensitivities.front().valid()) {
-    return "sensitivities: none, because the answer does not change smoothly here\n";
-  }
-  Table table(
-      {"if this changes", "by", "push force N", "v_x mm/s", "v_y mm/s", "turn deg/s"});
-  for (std::size_t i = 0; i < report.sensitivities.size(); ++i) {
-    const auto parameter = static_cast<InstantParameter>(i);
-    const PlanarSensitivity& change = report.sensitivities[i];
-    const auto [size, words] = step_of(parameter);
-    table.add({std::string(name(parameter)), words,
-               text("%+.4f", size * change.push_force),
-               text("%+.4f", to_mm(size * change.V_HO[0])),
-               text("%+.4f", to_mm(size * change.V_HO[1])),
-               text("%+.4f", to_deg(size * change.V_HO[2]))});
-  }
-  return "sensitivities (linear):\n" + table.str() +
-         text("nearest change of mode: %.2e of capacity or push rate away%s\n",
-              report.mode_slack,
-              report.mode_slack < 1e-6 ? "; the derivatives hold on one side only" : "");
-}
-
-nlohmann::ordered_json sensitivity_json(const InstantReport& report) {
-  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < report.sensitivities.size(); ++i) {
-    const auto parameter = static_cast<InstantParameter>(i);
-    const PlanarSensitivity& change = report.sensitivities[i];
-    rows.push_back({{"parameter", std::string(name(parameter))},
-                    {"per", std::string(unit(parameter))},
-                    {"push_force", number(change.push_force)},
-                    {"push_wrench", numbers(change.w_push)},
-                    {"object_twist", numbers(change.V_HO)}});
-  }
-  return rows;
-}
-
 nlohmann::ordered_json points_json(const InstantReport& report) {
   nlohmann::ordered_json points = nlohmann::ordered_json::array();
   for (int i = 0; i < report.instant.pusher_count; ++i) {
@@ -186,6 +149,44 @@ nlohmann::ordered_json points_json(const InstantReport& report) {
 }
 
 }  // namespace
+
+std::string describe(const Sensitivities& sensitivities) {
+  if (sensitivities.rows.empty()) return {};
+  if (!sensitivities.rows.front().V_HO.allFinite()) {
+    return "sensitivities: none, because the answer does not change smoothly here\n";
+  }
+  Table table({"if this changes", "by", "push force N", "v_x mm/s", "v_y mm/s",
+               "v_z mm/s", "turn deg/s"});
+  for (std::size_t i = 0; i < sensitivities.rows.size(); ++i) {
+    const auto parameter = static_cast<InstantParameter>(i);
+    const Sensitivities::Row& change = sensitivities.rows[i];
+    const auto [size, words] = step_of(parameter);
+    table.add({std::string(name(parameter)), words,
+               text("%+.4f", size * change.push_force),
+               text("%+.4f", to_mm(size * change.V_HO[0])),
+               text("%+.4f", to_mm(size * change.V_HO[1])),
+               text("%+.4f", to_mm(size * change.V_HO[2])),
+               text("%+.4f", to_deg(size * change.V_HO[5]))});
+  }
+  const double slack = sensitivities.mode_slack;
+  return "sensitivities (linear):\n" + table.str() +
+         text("nearest change of mode: %.2e of capacity or push rate away%s\n", slack,
+              slack < 1e-6 ? "; the derivatives hold on one side only" : "");
+}
+
+nlohmann::ordered_json to_json(const Sensitivities& sensitivities) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < sensitivities.rows.size(); ++i) {
+    const auto parameter = static_cast<InstantParameter>(i);
+    const Sensitivities::Row& change = sensitivities.rows[i];
+    rows.push_back({{"parameter", std::string(name(parameter))},
+                    {"per", std::string(unit(parameter))},
+                    {"push_force", number(change.push_force)},
+                    {"push_wrench", numbers(change.w_push)},
+                    {"object_twist", numbers(change.V_HO)}});
+  }
+  return rows;
+}
 
 const char* meaning(InstantStatus status) {
   switch (status) {
@@ -243,7 +244,7 @@ std::string describe(const InstantReport& report) {
     out += pusher_table(report);
     if (now.finger_count > 0) out += finger_table(report);
   }
-  out += sensitivity_text(report);
+  out += describe(report.sensitivities);
   out += text("solver %s: %d iterations, residual %.1e\n", report.solver.c_str(),
               now.iterations, now.residual);
   if (!report.why_this_solver.empty()) {
@@ -275,9 +276,9 @@ nlohmann::ordered_json to_json(const InstantReport& report) {
       {"residual", number(now.residual)},
       {"certificate", certificate},
       {"points", points_json(report)}};
-  if (!report.sensitivities.empty()) {
-    out["sensitivities"] = sensitivity_json(report);
-    out["mode_slack"] = number(report.mode_slack);
+  if (!report.sensitivities.rows.empty()) {
+    out["sensitivities"] = to_json(report.sensitivities);
+    out["mode_slack"] = number(report.sensitivities.mode_slack);
   }
   return out;
 }

@@ -10,8 +10,22 @@
 #include "mechanics/cross_section.h"
 #include "mechanics/instant.h"
 #include "mechanics/sensitivity.h"
+#include "mechanics/spatial_problem.h"
 
 namespace prehensile::apps {
+
+/// How the answer changes, by InstantParameter; empty where that was not asked for.
+struct Sensitivities {
+  struct Row {
+    double push_force = kNan;
+    SpatialTwist V_HO = SpatialTwist::Constant(kNan);
+    SpatialWrench w_push = SpatialWrench::Constant(kNan);
+  };
+  std::vector<Row> rows;
+  double mode_slack = kNan;  ///< see DifferentiatedInstant
+};
+std::string describe(const Sensitivities& sensitivities);
+nlohmann::ordered_json to_json(const Sensitivities& sensitivities);
 
 /// What was asked, how it was solved, and what came out. `certificate_worst` is the
 /// largest entry, by the certificate or by the residual of the model that was asked.
@@ -25,9 +39,7 @@ struct InstantReport {
   Certificate certificate;  ///< entries are NaN for the closed form, which has no points
   double certificate_worst = kNan;
 
-  /// By InstantParameter, if asked for; empty otherwise.
-  std::vector<PlanarSensitivity> sensitivities;
-  double mode_slack = kNan;  ///< see DifferentiatedInstant
+  Sensitivities sensitivities;
 };
 
 std::string describe(const InstantReport& report);

@@ -15,6 +15,7 @@
 #include "apps/table.h"
 #include "io/scene_file.h"
 #include "mechanics/solvers.h"
+#include "mechanics/spatial_sensitivity.h"
 #include "primitives/roll.h"
 
 namespace prehensile::apps {
@@ -134,8 +135,22 @@ std::string question_text(const Options& options, const Model& model, int contac
   return out + "; object at " + pose_text(model, grasp);
 }
 
-InstantQuestion asked(const Options& options, const Model& model, int contact,
-                      const Grasp& grasp) {
+/// The question, in the terms of a scene.
+struct Asked {
+  const Model* model = nullptr;
+  int contact_index = 0;
+  double place = 0.0;  ///< [m]
+  PlanarPose X_HO;
+  SpatialTwist V_HP = SpatialTwist::Zero();
+  SpatialQuestionOptions how;
+
+  const PushContact& contact() const {
+    return model->contacts[static_cast<std::size_t>(contact_index)];
+  }
+};
+
+Asked asked_of(const Options& options, const Model& model, int contact,
+               const Grasp& grasp) {
   SpatialQuestionOptions how{.from_rest = options.acceleration > 0.0};
   if (options.height_mm) {
     const Face& face = model.faces[model.contacts[contact].face];
@@ -148,12 +163,15 @@ InstantQuestion asked(const Options& options, const Model& model, int contact,
     how.height = 1e-3 * *options.height_mm;
   }
   const Vec2 e = chosen_direction(model, contact, options.push);
-  return question_at(model, model.contacts[contact], 1e-3 * options.push.place_mm,
-                     grasp.X_HO, pusher_rate(options, grasp, e), how);
+  return {&model,
+          contact,
+          1e-3 * options.push.place_mm,
+          grasp.X_HO,
+          pusher_rate(options, grasp, e),
+          how};
 }
 
-InstantReport planar_report(const Options& options, const Model& model, int contact,
-                            const Grasp& grasp, const InstantQuestion& question,
+InstantReport planar_report(const InstantQuestion& question,
                             const PlanarInstant& instant) {
   InstantReport report;
   report.grasp = question.grasp;
@@ -162,21 +180,41 @@ InstantReport planar_report(const Options& options, const Model& model, int cont
   if (instant.finger_count > 0) {
     report.certificate = certify(report.grasp, report.drive, report.instant);
   }
-  if (!options.sensitivity) return report;
-  const DifferentiatedInstant differentiated(report.grasp, report.drive, report.instant);
-  report.mode_slack = differentiated.mode_slack();
-  for (int i = 0; i < static_cast<int>(InstantParameter::kCount); ++i) {
-    report.sensitivities.push_back(differentiated.along(
-        variation_of(model, model.contacts[contact], 1e-3 * options.push.place_mm,
-                     grasp.X_HO, report.drive.V_HP, static_cast<InstantParameter>(i))));
-  }
   return report;
 }
 
+/// Derivatives of a planar answer to all parameters.
+Sensitivities planar_sensitivities(const Asked& asked, const InstantReport& report) {
+  const DifferentiatedInstant differentiated(report.grasp, report.drive, report.instant);
+  Sensitivities changes{.mode_slack = differentiated.mode_slack()};
+  for (int i = 0; i < static_cast<int>(InstantParameter::kCount); ++i) {
+    const PlanarSensitivity change = differentiated.along(
+        variation_of(*asked.model, asked.contact(), asked.place, asked.X_HO,
+                     report.drive.V_HP, static_cast<InstantParameter>(i)));
+    SpatialWrench w_push = SpatialWrench::Zero();
+    w_push << change.w_push[0], change.w_push[1], 0.0, 0.0, 0.0, change.w_push[2];
+    changes.rows.push_back({change.push_force, in_space(change.V_HO), w_push});
+  }
+  return changes;
+}
+
+Sensitivities spatial_sensitivities(const Asked& asked, const SpatialProblem& problem) {
+  const SpatialInstant sharp = solve_spatial(problem, {.tolerance = 1e-11});
+  const DifferentiatedSpatialInstant differentiated(problem, sharp);
+  Sensitivities changes{.mode_slack = differentiated.mode_slack()};
+  for (int i = 0; i < static_cast<int>(InstantParameter::kCount); ++i) {
+    const SpatialSensitivity change = differentiated.along(
+        spatial_variation_of(*asked.model, asked.contact(), asked.place, asked.X_HO,
+                             asked.V_HP, asked.how, static_cast<InstantParameter>(i)));
+    changes.rows.push_back({change.push_force, change.V_HO, change.w_push});
+  }
+  return changes;
+}
+
 /// One solver's answer, as that solver can tell it.
-int answer_one(const Options& options, const Model& model, int contact,
-               const Grasp& grasp, const std::string& question_words,
-               const InstantQuestion& question, const SolverOptions& how) {
+int answer_one(const Options& options, const Asked& asked,
+               const std::string& question_words, const InstantQuestion& question,
+               const SolverOptions& how) {
   const SolverChoice choice = chosen_solver(question);
   const bool chose = how.solver == Solver::kChoose;
   const Solver solver = chose ? choice.solver : how.solver;
@@ -184,14 +222,14 @@ int answer_one(const Options& options, const Model& model, int contact,
     throw BadInput("--solver " + std::string(name(solver)) + ": " + why +
                    (solver == Solver::kSpatial ? "" : ": expected auto or spatial"));
   }
-  if (options.sensitivity && solver != Solver::kPlanar) {
-    throw BadInput("--sensitivity: expected an instant for --solver exact, this one is " +
-                   std::string("for ") + std::string(name(solver)));
+  if (options.sensitivity && solver != Solver::kPlanar && solver != Solver::kSpatial) {
+    std::string message = "--sensitivity: expected an exact solver, not ";
+    throw BadInput(message += name(solver));
   }
   const InstantAnswer answer = solve(question, how);
   if (const auto* planar = std::get_if<PlanarInstant>(&answer.detail)) {
-    InstantReport report =
-        planar_report(options, model, contact, grasp, question, *planar);
+    InstantReport report = planar_report(question, *planar);
+    if (options.sensitivity) report.sensitivities = planar_sensitivities(asked, report);
     report.question = question_words;
     report.solver = name(solver);
     report.why_this_solver = chose ? choice.why : "";
@@ -206,6 +244,9 @@ int answer_one(const Options& options, const Model& model, int contact,
         how.rigid_limit ? rigid_limit_of(question.spatial) : question.spatial;
     report.instant = *spatial;
     report.probed = how.probe_multiplicity;
+    if (options.sensitivity) {
+      report.sensitivities = spatial_sensitivities(asked, report.problem);
+    }
     report.certificate = certify(report.problem, report.instant);
     return print(report, options.scene.json);
   }
@@ -223,14 +264,16 @@ int run(const Options& options) {
   if (options.roll) return ask_roll(options, model, contact);
   check_options(options);
   const Grasp grasp = chosen_grasp(model, options.push);
-  const InstantQuestion question = asked(options, model, contact, grasp);
+  const Asked asked = asked_of(options, model, contact, grasp);
+  const InstantQuestion question =
+      question_at(model, asked.contact(), asked.place, asked.X_HO, asked.V_HP, asked.how);
   const std::string words = question_text(options, model, contact, grasp);
   const SolverOptions how{.solver = solver_called(options.solver),
                           .generators = options.generators,
                           .probe_multiplicity = options.probe,
                           .rigid_limit = options.rigid_limit};
   if (!options.compare) {
-    return answer_one(options, model, contact, grasp, words, question, how);
+    return answer_one(options, asked, words, question, how);
   }
   const std::vector<TimedAnswer> answers = compare_solvers(question, how);
   const std::string out = options.scene.json ? to_json(answers).dump(2) + '\n'

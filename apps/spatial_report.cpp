@@ -155,6 +155,7 @@ std::string describe(const SpatialReport& report) {
     out += twist_text("other motion", now.other.head<6>());
   }
   if (usable(now.status)) out += modes_in_words(report) + point_table(report);
+  out += describe(report.sensitivities);
   out += text("solver spatial: %d Newton steps, residual %.1e\n", now.iterations,
               now.residual);
   if (!report.why_this_solver.empty()) {
@@ -170,23 +171,29 @@ nlohmann::ordered_json to_json(const SpatialReport& report) {
     const auto check = static_cast<SpatialCertificate::Check>(i);
     certificate[std::string(name(check))] = number(report.certificate.entries[i].value);
   }
-  return {{"question", report.question},
-          {"solver", "spatial"},
-          {"why_this_solver", report.why_this_solver},
-          {"status", std::string(name(now.status))},
-          {"meaning", meaning_in_space(report)},
-          {"push_force", number(now.push_force)},
-          {"push_wrench", numbers(now.w_push)},
-          {"object_twist", numbers(now.V_HO)},
-          {"jaw_rates", {number(now.jaw_rate[0]), number(now.jaw_rate[1])}},
-          {"evidence", numbers(now.evidence)},
-          {"other_twist", numbers(now.other)},
-          {"force_interval", {number(now.force_low), number(now.force_high)}},
-          {"iterations", now.iterations},
-          {"residual", number(now.residual)},
-          {"certificate", certificate},
-          {"points",
-           usable(now.status) ? points_json(report) : nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json out = {
+      {"question", report.question},
+      {"solver", "spatial"},
+      {"why_this_solver", report.why_this_solver},
+      {"status", std::string(name(now.status))},
+      {"meaning", meaning_in_space(report)},
+      {"push_force", number(now.push_force)},
+      {"push_wrench", numbers(now.w_push)},
+      {"object_twist", numbers(now.V_HO)},
+      {"jaw_rates", {number(now.jaw_rate[0]), number(now.jaw_rate[1])}},
+      {"evidence", numbers(now.evidence)},
+      {"other_twist", numbers(now.other)},
+      {"force_interval", {number(now.force_low), number(now.force_high)}},
+      {"iterations", now.iterations},
+      {"residual", number(now.residual)},
+      {"certificate", certificate},
+      {"points",
+       usable(now.status) ? points_json(report) : nlohmann::ordered_json::array()}};
+  if (!report.sensitivities.rows.empty()) {
+    out["sensitivities"] = to_json(report.sensitivities);
+    out["mode_slack"] = number(report.sensitivities.mode_slack);
+  }
+  return out;
 }
 
 }  // namespace prehensile::apps

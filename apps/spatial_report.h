@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/instant_report.h"
 #include "mechanics/spatial_certificate.h"
 
 namespace prehensile::apps {
@@ -16,6 +17,7 @@ struct SpatialReport {
   SpatialProblem problem;
   SpatialInstant instant;
   SpatialCertificate certificate;
+  Sensitivities sensitivities;
 };
 
 std::string describe(const SpatialReport& report);

@@ -67,30 +67,6 @@ CrossSectionModel make_cross_section(const Scene& scene) {
   return section;
 }
 
-/// Balance along z with the object at rest in the jaws: w is gravity along the closing
-/// direction, away from jaw 1.
-std::array<double, 2> jaw_forces(const Gripper& gripper, double w) {
-  const double N = gripper.grip_force;
-  std::array<double, 2> force{N, N};
-  switch (gripper.jaw_mode) {
-    case JawMode::kCoupled:
-    case JawMode::kLocked:
-      force = {N - 0.5 * w, N + 0.5 * w};
-      break;
-    case JawMode::kFixedJaw1:
-      force = {N - w, N};
-      break;
-    case JawMode::kFixedJaw2:
-      force = {N, N + w};
-      break;
-    case JawMode::kIndependent:
-      if (w != 0.0) force = {0.0, 0.0};
-      break;
-  }
-  if (force[0] < 0.0 || force[1] < 0.0) force = {0.0, 0.0};
-  return force;
-}
-
 std::vector<std::string> load_shifts_of(const Scene& scene) {
   std::vector<std::string> found;
   if (scene.g_Wz != 0.0) found.emplace_back("gravity along the closing direction");
@@ -220,6 +196,28 @@ Model prepare(const Scene& scene, const PrepareOptions& options) {
   if (can_roll(scene.object)) model.cross_section = make_cross_section(scene);
   explain(scene, model);
   return model;
+}
+
+std::array<double, 2> jaw_forces(const Gripper& gripper, double w) {
+  const double N = gripper.grip_force;
+  std::array<double, 2> force{N, N};
+  switch (gripper.jaw_mode) {
+    case JawMode::kCoupled:
+    case JawMode::kLocked:
+      force = {N - 0.5 * w, N + 0.5 * w};
+      break;
+    case JawMode::kFixedJaw1:
+      force = {N - w, N};
+      break;
+    case JawMode::kFixedJaw2:
+      force = {N, N + w};
+      break;
+    case JawMode::kIndependent:
+      if (w != 0.0) force = {0.0, 0.0};
+      break;
+  }
+  if (force[0] < 0.0 || force[1] < 0.0) force = {0.0, 0.0};
+  return force;
 }
 
 PlanarGrasp grasp_at(const Model& model, const PlanarPose& X_HO,

@@ -113,6 +113,10 @@ class BadScene : public std::runtime_error {
 /// Compiles a scene. Throws BadScene with all faults.
 Model prepare(const Scene& scene, const PrepareOptions& options = {});
 
+/// Forces of both jaws on an object at rest between them [N]: w [N] is gravity along the
+/// closing direction, away from jaw 1. Both 0 where the jaws cannot carry that.
+std::array<double, 2> jaw_forces(const Gripper& gripper, double w);
+
 /// The grasp at a pose, with gravity g_O [m/s^2] in O; no heap. `count` is 0 where the
 /// pads have lost the face, or have no friction or no grip force.
 PlanarGrasp grasp_at(const Model& model, const PlanarPose& X_HO,

@@ -157,12 +157,14 @@ RayExit PadFriction::exit_of_pads(const PlanarWrench& w, const PlanarWrench& e,
   // No exit lies further back than the far side of S.
   const double least = -(w.norm() + 1.0 + reach_);
   int tried = -1;
+  // Pad points are tried as pivots once the search is near; a guess may be.
+  int far = use_guess ? 0 : 2;
   LoadFactor here(points(), w, e, start);
   int step = 0;
   for (; step < kNewtonSteps; ++step) {
     if (here.gap.norm() <= enough) break;
     if (!(here.lambda >= least)) return {};
-    if (const int nearest = step < 2 ? tried : nearest_to_centre(here.u);
+    if (const int nearest = step < far ? tried : nearest_to_centre(here.u);
         nearest != tried) {
       tried = nearest;
       const PivotTest test = test_pivot(nearest, w, e);
@@ -189,7 +191,10 @@ RayExit PadFriction::exit_of_pads(const PlanarWrench& w, const PlanarWrench& e,
                 next.gap.norm() < 0.5 * here.gap.norm());
       if (better) here = next;
     }
-    if (!better) break;
+    if (!better) {
+      if (step >= far) break;
+      far = 0;
+    }
   }
   const bool hit = here.gap.norm() <= 1e-9 * (1.0 + w.norm());
   return {hit, here.lambda, here.u, {}, step};

@@ -257,13 +257,13 @@ SpatialVariation variation_between(const SpatialProblem& below,
 
 SpatialVariation spatial_variation_of(const Model& model, const PushContact& contact,
                                       double place, const PlanarPose& X_HO,
-                                      const PlanarTwist& V_HP,
-                                      const OutOfPlane& out_of_plane,
+                                      const SpatialTwist& V_HP,
+                                      const SpatialQuestionOptions& options,
                                       InstantParameter parameter) {
   const auto question = [&](double step) {
     Model changed = model;
     PushContact pushed = contact;
-    PlanarTwist V = V_HP;
+    SpatialTwist V = V_HP;
     double at = place;
     Gripper& gripper = changed.scene.gripper;
     switch (parameter) {
@@ -286,12 +286,13 @@ SpatialVariation spatial_variation_of(const Model& model, const PushContact& con
         at += step;
         break;
       case InstantParameter::kDirection:
-        V << rotated(step, Vec2(V_HP.head<2>())), V_HP[2];
+        V.head<2>() = rotated(step, Vec2(V_HP.head<2>()));
         break;
       case InstantParameter::kCount:
         break;
     }
-    return spatial_problem_at(changed, pushed, at, X_HO, V, out_of_plane);
+    changed.jaw_force = jaw_forces(gripper, changed.mass * changed.scene.g_Wz);
+    return spatial_problem_at(changed, pushed, at, X_HO, V, options);
   };
   return variation_between(question(-kStep), question(kStep), 2.0 * kStep);
 }

@@ -104,11 +104,11 @@ SpatialVariation variation_between(const SpatialProblem& below,
                                    const SpatialProblem& above, double step) noexcept;
 
 /// How the question of a scene at a pose changes with a parameter. The compliance in
-/// units V0 / F0 stays. Takes heap: the scene is changed and asked again.
+/// units V0 / F0 stays. Quasi-static. Takes heap: the scene is changed and asked again.
 SpatialVariation spatial_variation_of(const Model& model, const PushContact& contact,
                                       double place, const PlanarPose& X_HO,
-                                      const PlanarTwist& V_HP,
-                                      const OutOfPlane& out_of_plane,
+                                      const SpatialTwist& V_HP,
+                                      const SpatialQuestionOptions& options,
                                       InstantParameter parameter);
 
 }  // namespace prehensile

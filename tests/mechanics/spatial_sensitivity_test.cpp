@@ -216,6 +216,7 @@ Scene box_scene() {
   scene.gripper.pad = DiscPad{.radius = 0.009};
   scene.gripper.friction = {0.5, 0.4};
   scene.gripper.grip_force = 20.0;
+  scene.g_Wz = 3.0;
   scene.pushers = {{.name = "pin", .feature = PointFeature{}, .friction = 0.2}};
   return scene;
 }
@@ -223,15 +224,15 @@ Scene box_scene() {
 /// The parameters of a scene, each against a scene in which it is a little different.
 TEST(SpatialSensitivity, OfTheParametersOfAScene) {
   const double place = 0.012;
-  const OutOfPlane out_of_plane{.height = 0.004};
+  const SpatialQuestionOptions off_plane{.height = 0.004};
   const auto question = [&](const Scene& scene, double at_place, double direction) {
     const Model model = prepare(scene, {.points_per_pad = 8});
-    PlanarTwist V_HP;
-    V_HP << 0.01 * rotated(direction, {1.0, 0.0}), 0.0;
-    return spatial_problem_at(model, model.contacts[0], at_place, {}, V_HP, out_of_plane);
+    const Vec2 v = 0.01 * rotated(direction, {1.0, 0.0});
+    return spatial_problem_at(model, model.contacts[0], at_place, {},
+                              in_space({v.x(), v.y(), 0.0}), off_plane);
   };
   const Model model = prepare(box_scene(), {.points_per_pad = 8});
-  const PlanarTwist V_HP(0.01, 0.0, 0.0);
+  const SpatialTwist V_HP = in_space({0.01, 0.0, 0.0});
   const SpatialProblem problem = question(box_scene(), place, 0.0);
   const SpatialInstant answer = solve_spatial(problem, kSharp);
   const DifferentiatedSpatialInstant differentiated(problem, answer);
@@ -256,7 +257,7 @@ TEST(SpatialSensitivity, OfTheParametersOfAScene) {
     const SpatialInstant above = pushed(kStep);
     const SpatialInstant below = pushed(-kStep);
     const SpatialSensitivity change = differentiated.along(spatial_variation_of(
-        model, model.contacts[0], place, {}, V_HP, out_of_plane, parameter));
+        model, model.contacts[0], place, {}, V_HP, off_plane, parameter));
     const double force = (above.push_force - below.push_force) / (2.0 * kStep);
     EXPECT_NEAR(change.push_force, force, 1e-3 * std::abs(force) + 1e-4)
         << name(parameter);

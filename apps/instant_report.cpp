@@ -64,6 +64,12 @@ std::string certificate_text(const InstantReport& report) {
         text("  %-16s %.1e\n",
              std::string(name(static_cast<Certificate::Check>(i))).c_str(), entry.value);
   }
+  if (std::isfinite(report.certificate.force_high)) {
+    out += text(
+        "  push force in this direction: at least %.6f N by forces in balance, at most "
+        "%.6f N by this motion\n",
+        report.certificate.force_low, report.certificate.force_high);
+  }
   if (report.solver == "ipopt" && report.certificate_worst > 1e-6) {
     out +=
         "  (expected: this solver's friction cones are polyhedra inside the circular "
@@ -260,6 +266,8 @@ nlohmann::ordered_json to_json(const InstantReport& report) {
     const auto check = static_cast<Certificate::Check>(i);
     certificate[std::string(name(check))] = number(report.certificate.entries[i].value);
   }
+  certificate["force_bounds"] = {number(report.certificate.force_low),
+                                 number(report.certificate.force_high)};
   nlohmann::ordered_json out = {
       {"question", report.question},
       {"solver", report.solver},

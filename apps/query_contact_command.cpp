@@ -54,7 +54,14 @@ struct NamePad {
   std::string operator()(const LinePad& pad) const {
     return text("line %.4g mm at %.4g deg", to_mm(pad.length), to_deg(pad.angle));
   }
-  std::string operator()(const PointPad&) const { return "point"; }
+  std::string operator()(const PointPad& pad) const {
+    return pad.spin_radius
+               ? text("soft point, spin radius %.4g mm", to_mm(*pad.spin_radius))
+               : "point";
+  }
+  std::string operator()(const PolygonPad& pad) const {
+    return text("polygon of %zu vertices", pad.outline.size());
+  }
 };
 
 /// Radius of a disc of the same size, by which other pads are made.
@@ -65,12 +72,17 @@ struct ReachOfPad {
   }
   double operator()(const LinePad& pad) const { return 0.5 * pad.length; }
   double operator()(const PointPad&) const { return 0.005; }
+  double operator()(const PolygonPad& pad) const {
+    return std::sqrt(properties_of(pad.outline).area / std::numbers::pi);
+  }
 };
 
 std::string name_of(const PusherFeature& feature) {
-  const auto* line = std::get_if<LineFeature>(&feature);
-  if (!line) return "point";
-  return line->length ? text("line %.4g mm", to_mm(*line->length)) : "wall";
+  if (std::holds_alternative<UprightFeature>(feature)) return "upright edge";
+  const std::optional<double> length = length_in_plane(feature);
+  if (!length) return "point";
+  const char* kind = std::holds_alternative<PlaneFeature>(feature) ? "plane" : "line";
+  return std::isfinite(*length) ? text("%s %.4g mm", kind, to_mm(*length)) : "wall";
 }
 
 struct Geometry {

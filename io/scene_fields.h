@@ -140,6 +140,12 @@ void visit_pad(Fields& fields, Pad& pad) {
             f.number("length", line.length, kLengths, kRequired, "Length.");
             f.angle("angle", line.angle, kAngles, "Of the line in H, from its x axis.");
           }),
+      alternative<PolygonPad>(
+          "polygon", "Flat pad of any shape.",
+          [](auto& f, PolygonPad& polygon) {
+            f.points("outline", polygon.outline, Length{3, 40}, kPlaces,
+                     "Vertices [x, y] in H, counter-clockwise; edges must not cross.");
+          }),
       alternative<PointPad>("point", "Point contact.", [](auto& f, PointPad& point) {
         f.number("spin_radius", point.spin_radius, kLengths,
                  "Absent: a hard point, without friction moment. Else a soft one: "

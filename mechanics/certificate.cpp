@@ -140,6 +140,20 @@ void check_fingers(const PlanarGrasp& grasp, const PlanarInstant& answer,
   }
 }
 
+void bound_force(const PlanarGrasp& grasp, const PlanarInstant& answer,
+                 Certificate& certificate) {
+  if (!grasp.inertia.isZero() || !(answer.push_force > 0.0)) return;
+  const PlanarWrench p = answer.w_push / answer.push_force;
+  certificate.force_high = force_upper_bound(grasp, p, answer.V_HO);
+  PlanarWrench carried = -grasp.w_g;
+  for (int j = 0; j < answer.finger_count; ++j) {
+    Vec2 f = answer.finger[j].force;
+    if (f.norm() > grasp.bound[j]) f *= grasp.bound[j] / f.norm();
+    carried -= PlanarWrench(f.x(), f.y(), grasp.x[j] * f.y() - grasp.y[j] * f.x());
+  }
+  certificate.force_low = p.head<2>().dot(carried.head<2>());
+}
+
 }  // namespace
 
 std::string_view name(Certificate::Check check) {
@@ -186,7 +200,9 @@ Certificate certify(const PlanarGrasp& grasp, const PlanarDrive& drive,
     check_fingers(grasp, answer, units, findings);
   }
   findings.note(Check::kEvidence, evidence_violation(grasp, drive, answer, units), -1);
-  return findings.certificate();
+  Certificate certificate = findings.certificate();
+  if (has_motion(answer.status)) bound_force(grasp, answer, certificate);
+  return certificate;
 }
 
 double force_upper_bound(const PlanarGrasp& grasp, const PlanarWrench& p,

@@ -34,6 +34,14 @@ struct Certificate {
   std::array<CertificateEntry, kCheckCount> entries;
   double worst = kNan;  ///< largest entry
 
+  /// With a motion of a quasi-static instant, bounds on the push force [N] in the
+  /// direction of the push that was answered (limit analysis): what balanced friction
+  /// forces within their cones carry is a lower one, what the motion dissipates an upper
+  /// one. They meet where the answer is right; the lower one is sure up to the entry of
+  /// kNewton.
+  double force_low = kNan;
+  double force_high = kNan;
+
   /// Accepted: every entry finite and at most `tolerance`.
   bool holds(double tolerance = 1e-6) const { return worst <= tolerance; }
 };

@@ -20,7 +20,12 @@ struct ScalePad {
   void operator()(DiscPad& disc) const { disc.radius *= factor; }
   void operator()(RectanglePad& rectangle) const { rectangle.size *= factor; }
   void operator()(LinePad& line) const { line.length *= factor; }
-  void operator()(PointPad&) const {}
+  void operator()(PolygonPad& polygon) const {
+    for (Vec2& v : polygon.outline) v *= factor;
+  }
+  void operator()(PointPad& point) const {
+    if (point.spin_radius) *point.spin_radius *= factor;
+  }
 };
 
 /// Place, direction and travel of a push, where it has them.

@@ -110,6 +110,116 @@ ContactPoints line_points(const LinePad& pad, int points) {
   return result;
 }
 
+double area_of(const Triangle& t) {
+  return 0.5 * cross(t.vertices[1] - t.vertices[0], t.vertices[2] - t.vertices[0]);
+}
+
+Vec2 centroid_of(const Triangle& t) {
+  return (t.vertices[0] + t.vertices[1] + t.vertices[2]) / 3.0;
+}
+
+double longest_side(const Triangle& t) {
+  return std::max({(t.vertices[1] - t.vertices[0]).norm(),
+                   (t.vertices[2] - t.vertices[1]).norm(),
+                   (t.vertices[0] - t.vertices[2]).norm()});
+}
+
+/// Triangles of a polygon: around its centroid where that sees every edge from inside.
+std::vector<Triangle> compact_triangles(const std::vector<Vec2>& outline) {
+  const Vec2 centre = properties_of(outline).centroid;
+  std::vector<Triangle> fan;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    fan.push_back({{centre, outline[i], outline[(i + 1) % outline.size()]}});
+    if (!(area_of(fan.back()) > 0.0)) return triangulate(outline);
+  }
+  return fan;
+}
+
+/// Cuts a polygon into at least `count` triangles, the longest one halved again and again
+/// across its longest side.
+std::vector<Triangle> pieces_of(const std::vector<Vec2>& outline, std::size_t count) {
+  const auto shorter = [](const Triangle& a, const Triangle& b) {
+    return longest_side(a) < longest_side(b);
+  };
+  std::vector<Triangle> pieces = compact_triangles(outline);
+  std::make_heap(pieces.begin(), pieces.end(), shorter);
+  while (pieces.size() < count) {
+    std::pop_heap(pieces.begin(), pieces.end(), shorter);
+    Triangle whole = pieces.back();
+    const double longest = longest_side(whole);
+    while ((whole.vertices[1] - whole.vertices[0]).norm() < longest) {
+      std::rotate(whole.vertices.begin(), whole.vertices.begin() + 1,
+                  whole.vertices.end());
+    }
+    const auto& [a, b, c] = whole.vertices;
+    const Vec2 middle = 0.5 * (a + b);
+    pieces.back() = {{a, middle, c}};
+    std::push_heap(pieces.begin(), pieces.end(), shorter);
+    pieces.push_back({{middle, b, c}});
+    std::push_heap(pieces.begin(), pieces.end(), shorter);
+  }
+  return pieces;
+}
+
+using Pieces = std::vector<Triangle>::iterator;
+
+/// Parts of like area: halves of halves, each cut across its longer extent; their centres
+/// become points.
+void add_parts(Pieces first, Pieces last, int parts, double whole,
+               ContactPoints& points) {
+  double area = 0.0;
+  Vec2 moment = Vec2::Zero();
+  Vec2 low = Vec2::Constant(1e9);
+  Vec2 high = Vec2::Constant(-1e9);
+  for (Pieces piece = first; piece != last; ++piece) {
+    const Vec2 centre = centroid_of(*piece);
+    area += area_of(*piece);
+    moment += area_of(*piece) * centre;
+    low = low.cwiseMin(centre);
+    high = high.cwiseMax(centre);
+  }
+  if (parts == 1) {
+    if (area > 0.0) add(points, moment / area, area / whole);
+    return;
+  }
+  const int axis = high.x() - low.x() >= high.y() - low.y() ? 0 : 1;
+  std::sort(first, last, [axis](const Triangle& a, const Triangle& b) {
+    return centroid_of(a)[axis] < centroid_of(b)[axis];
+  });
+  Pieces middle = first;
+  for (double half = 0.0; middle != last && half < 0.5 * area; ++middle) {
+    half += area_of(*middle);
+  }
+  add_parts(first, middle, parts / 2, whole, points);
+  add_parts(middle, last, parts / 2, whole, points);
+}
+
+/// Centres of compact parts, moved out from the finger axis by the little that gives them
+/// the torque of the polygon.
+ContactPoints polygon_points(const std::vector<Vec2>& outline, int points) {
+  ContactPoints result;
+  result.coverage = 1.0;
+  constexpr std::size_t kFine = 4096;
+  std::vector<Triangle> pieces = pieces_of(outline, kFine);
+  double area = 0.0;
+  double lever = 0.0;
+  for (const Triangle& piece : pieces) {
+    area += area_of(piece);
+    lever += area_of(piece) * centroid_of(piece).norm();
+  }
+  add_parts(pieces.begin(), pieces.end(), points, area, result);
+  double of_points = 0.0;
+  for (int j = 0; j < result.count; ++j) {
+    of_points += result.weight[j] * std::hypot(result.x[j], result.y[j]);
+  }
+  const double stretch = of_points > 0.0 ? lever / area / of_points : 1.0;
+  for (int j = 0; j < result.count; ++j) {
+    result.x[j] *= stretch;
+    result.y[j] *= stretch;
+  }
+  return result;
+}
+
 void finish(PadCell& cell) {
   if (cell.count == 2) {
     cell.measure = (cell.vertices[1] - cell.vertices[0]).norm();
@@ -189,6 +299,18 @@ std::vector<PadCell> line_cells(const LinePad& pad, int per_side) {
   return cells;
 }
 
+std::vector<PadCell> polygon_cells(const std::vector<Vec2>& outline, int per_side) {
+  std::vector<PadCell> cells;
+  for (const Triangle& piece :
+       pieces_of(outline, static_cast<std::size_t>(per_side * per_side))) {
+    PadCell& cell = cells.emplace_back();
+    cell.count = 3;
+    std::copy(piece.vertices.begin(), piece.vertices.end(), cell.vertices.begin());
+    finish(cell);
+  }
+  return cells;
+}
+
 /// Cuts the polygon by the half-plane left of a -> b (Sutherland and Hodgman 1974).
 void clip(PadCell& polygon, const Vec2& a, const Vec2& b) {
   PadCell result;
@@ -218,6 +340,11 @@ PadDensity::PadDensity(const Pad& pad, const PadPressure& pressure)
   if (const auto* disc = std::get_if<DiscPad>(&pad)) {
     half_.setConstant(disc->radius);
     mean_square_ = disc->radius * disc->radius * (hertz_ ? 0.4 : 0.5);
+    return;
+  }
+  if (const auto* polygon = std::get_if<PolygonPad>(&pad)) {
+    const OutlineProperties whole = properties_of(polygon->outline);
+    mean_square_ = whole.second.trace() / whole.area + whole.centroid.squaredNorm();
     return;
   }
   if (const auto* rectangle = std::get_if<RectanglePad>(&pad)) {
@@ -263,6 +390,8 @@ ContactPoints pad_points(const Pad& pad, const PadPressure& pressure, int points
     result = rectangle_points(rectangle->size, points);
   } else if (const auto* line = std::get_if<LinePad>(&pad)) {
     result = line_points(*line, points);
+  } else if (const auto* polygon = std::get_if<PolygonPad>(&pad)) {
+    result = polygon_points(polygon->outline, points);
   } else {
     result.coverage = 1.0;
     add(result, Vec2::Zero(), 1.0);
@@ -284,7 +413,11 @@ double pad_reach(const Pad& pad) {
     return 0.5 * rectangle->size.norm();
   }
   if (const auto* line = std::get_if<LinePad>(&pad)) return 0.5 * line->length;
-  return 0.0;
+  double reach = 0.0;
+  if (const auto* polygon = std::get_if<PolygonPad>(&pad)) {
+    for (const Vec2& v : polygon->outline) reach = std::max(reach, v.norm());
+  }
+  return reach;
 }
 
 std::vector<PadCell> pad_cells(const Pad& pad, const PadPressure& pressure,
@@ -296,6 +429,9 @@ std::vector<PadCell> pad_cells(const Pad& pad, const PadPressure& pressure,
     cells = rectangle_cells(rectangle->size, per_side);
   }
   if (const auto* line = std::get_if<LinePad>(&pad)) cells = line_cells(*line, per_side);
+  if (const auto* polygon = std::get_if<PolygonPad>(&pad)) {
+    cells = polygon_cells(polygon->outline, per_side);
+  }
   const PadDensity density(pad, pressure);
   double load = 0.0;
   double torque = 0.0;

@@ -30,8 +30,9 @@ class PadDensity {
 
 /// Quadrature of a whole pad about the finger axis, weights summing to 1. Disc: Gauss
 /// rings, exact for the torque of uniform pressure; rectangle: Gauss points on four
-/// panels; line: cell centres, exact for the torque. Never on the rim, where points would
-/// hold too much torque. `points`: 1, 4, 8, 16, 32 or 64; a hard point pad has one.
+/// panels; line: cell centres, exact for the torque; polygon: centres of triangles, with
+/// the torque of the whole. Never on the rim, where points would hold too much torque.
+/// `points`: 1, 4, 8, 16, 32 or 64; a hard point pad has one.
 ContactPoints pad_points(const Pad& pad, const PadPressure& pressure, int points);
 
 /// The pad as friction in the pad plane knows it: a soft point is stood for by the round

@@ -18,6 +18,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLongest = 10.0;   // [m]
 constexpr double kSmallest = 1e-6;  // [m]
 constexpr std::size_t kMostVertices = 200;
+constexpr std::size_t kMostPadVertices = 40;
 constexpr std::size_t kMostPushers = 64;
 
 std::string text(double value) {
@@ -65,10 +66,10 @@ class Checker {
 };
 
 void check_outline(Checker& checker, const std::string& field,
-                   const std::vector<Vec2>& outline) {
-  if (outline.size() < 3 || outline.size() > kMostVertices) {
+                   const std::vector<Vec2>& outline, std::size_t most = kMostVertices) {
+  if (outline.size() < 3 || outline.size() > most) {
     checker.fault(field, std::to_string(outline.size()) + " vertices: expected 3 to " +
-                             std::to_string(kMostVertices));
+                             std::to_string(most));
     return;
   }
   for (const Vec2& v : outline) checker.place(field, v);
@@ -173,13 +174,23 @@ void check_pad(Checker& checker, const Gripper& gripper, const Object& object) {
       checker.length(field + ".point.spin_radius", *point->spin_radius);
     }
   }
+  if (const auto* polygon = std::get_if<PolygonPad>(&gripper.pad)) {
+    check_outline(checker, field + ".polygon.outline", polygon->outline,
+                  kMostPadVertices);
+    if (gripper.pressure.profile == PressureProfile::kHertz) {
+      checker.fault("gripper.pressure.profile",
+                    "hertz over a polygon: expected uniform, and edge_load if the rim "
+                    "carries less");
+    }
+  }
   const bool thin = std::holds_alternative<LinePad>(gripper.pad) ||
-                    std::holds_alternative<PointPad>(gripper.pad);
+                    std::holds_alternative<PointPad>(gripper.pad) ||
+                    std::holds_alternative<PolygonPad>(gripper.pad);
   if (thin && can_roll(object)) {
-    checker.fault(
-        field,
-        "a line or point pad on the curved side of a cylinder: expected a disc or a "
-        "rectangle");
+    checker.fault(field,
+                  "a line, point or polygon pad on the curved side of a cylinder: "
+                  "expected a disc or a "
+                  "rectangle");
   }
 }
 

@@ -92,7 +92,12 @@ struct PointPad {
                                       ///< radius
 };
 
-using Pad = std::variant<DiscPad, RectanglePad, LinePad, PointPad>;
+/// Any flat pad: a half disc, a pad with a notch.
+struct PolygonPad {
+  std::vector<Vec2> outline;  ///< [m] in H, simple, counter-clockwise, 3 to 40 vertices
+};
+
+using Pad = std::variant<DiscPad, RectanglePad, LinePad, PointPad, PolygonPad>;
 
 /// How the normal load of a pad spreads over its points when the push shifts it.
 enum class PressureLaw {

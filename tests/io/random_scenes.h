@@ -30,13 +30,15 @@ inline Shape random_shape(Random& random) {
 }
 
 inline Pad random_pad(Random& random, bool thin_ones_too) {
-  switch (random.below(thin_ones_too ? 4 : 2)) {
+  switch (random.below(thin_ones_too ? 5 : 2)) {
     case 0:
       return DiscPad{random.in(0.002, 0.02)};
     case 1:
       return RectanglePad{{random.in(0.002, 0.04), random.in(0.002, 0.04)}};
     case 2:
       return LinePad{random.in(0.002, 0.04), random.in(-1.0, 1.0)};
+    case 3:
+      return PolygonPad{{{-0.01, -0.01}, {random.in(0.005, 0.02), -0.01}, {0.0, 0.01}}};
     default:
       return random.chance(0.5) ? PointPad{} : PointPad{random.in(1e-3, 1e-2)};
   }
@@ -102,10 +104,13 @@ inline Scene random_scene(Random& random) {
   scene.gripper.grip_force = random.in(0.0, 100.0);
   scene.gripper.jaw_mode = static_cast<JawMode>(random.below(3));
   if (random.chance(0.3)) {
-    scene.gripper.pressure = {.law = static_cast<PressureLaw>(random.below(3)),
-                              .compliance = random.log_in(1e-6, 1.0),
-                              .profile = static_cast<PressureProfile>(random.below(2)),
-                              .edge_load = random.in(-0.5, 1.0)};
+    scene.gripper.pressure = {
+        .law = static_cast<PressureLaw>(random.below(3)),
+        .compliance = random.log_in(1e-6, 1.0),
+        .profile = std::holds_alternative<PolygonPad>(scene.gripper.pad)
+                       ? PressureProfile::kUniform
+                       : static_cast<PressureProfile>(random.below(2)),
+        .edge_load = random.in(-0.5, 1.0)};
   }
   const double half = random.in(-3.0, 3.0);
   scene.gripper.tool.p_HT = {random.in(-0.1, 0.1), random.in(-0.1, 0.1), 1e-17};

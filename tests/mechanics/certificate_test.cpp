@@ -101,6 +101,28 @@ Units units_of(const PlanarGrasp& grasp, const PlanarDrive& drive) {
   return {grasp.capacity(), std::sqrt(square / grasp.capacity()), rate};
 }
 
+/// Limit analysis from both sides: the bounds meet in the answer, and any other motion
+/// gives a larger upper one.
+TEST(Certificate, ForceLiesBetweenItsBounds) {
+  int compared = 0;
+  for (int i = 0; i < 300; ++i) {
+    const RandomInstant q = random_instant(22, i, {.points_per_pad = 8});
+    const PlanarInstant a = solve_planar(q.grasp, q.drive);
+    if (a.status != InstantStatus::kMoves) continue;
+    const Certificate certificate = certify(q.grasp, q.drive, a);
+    const double unit = q.grasp.capacity();
+    EXPECT_NEAR(certificate.force_low, a.push_force, 1e-9 * unit) << i;
+    // Where the object turns about a pad point or hardly dissipates, the bound is as good
+    // as the twist.
+    EXPECT_NEAR(certificate.force_high, a.push_force, 1e-6 * unit) << i;
+    const PlanarWrench p = a.w_push / a.push_force;
+    const PlanarTwist other = a.V_HO + 0.1 * a.V_HO.norm() * PlanarTwist(0.3, -0.5, 0.7);
+    EXPECT_GE(force_upper_bound(q.grasp, p, other), a.push_force - 1e-9 * unit) << i;
+    ++compared;
+  }
+  EXPECT_GT(compared, 150);
+}
+
 TEST(Certificate, RejectsEveryPerturbedOutput) {
   int mutants = 0;
   for (int i = 0; i < 500; ++i) {

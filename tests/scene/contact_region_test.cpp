@@ -1,6 +1,7 @@
 #include "scene/contact_region.h"
 
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -166,6 +167,69 @@ TEST(ContactRegion, EvaluationUsesNoHeap) {
   const long allocations = scope.allocations();
   EXPECT_EQ(allocations, testing::heap_is_counted() ? 0 : -1);
   EXPECT_GT(points.count, 0);
+}
+
+/// A rectangle and a disc said as polygons are the pads that they are.
+TEST(ContactRegion, PolygonPadsAreThePadsTheyDescribe) {
+  Scene scene;
+  scene.object.shape = BoxShape{{0.1, 0.1, 0.03}};
+  scene.object.mass = 0.1;
+  scene.gripper.friction = {0.5, 0.5};
+  scene.gripper.grip_force = 10.0;
+  const auto radius_of = [&scene](const Pad& pad, int points) {
+    scene.gripper.pad = pad;
+    EXPECT_TRUE(check(scene).empty());
+    return ContactRegion(scene, points).torque_radius();
+  };
+  PolygonPad disc;
+  for (int i = 0; i < 40; ++i) {
+    disc.outline.push_back(rotated(2.0 * std::numbers::pi * i / 40, {0.01, 0.0}));
+  }
+  const PolygonPad rectangle{
+      {{-0.01, -0.005}, {0.01, -0.005}, {0.01, 0.005}, {-0.01, 0.005}}};
+  const double of_disc = radius_of(DiscPad{0.01}, 64);
+  const double of_rectangle = radius_of(RectanglePad{{0.02, 0.01}}, 64);
+  for (const int points : {4, 16, 64}) {
+    EXPECT_NEAR(radius_of(disc, points), of_disc, 5e-3 * of_disc) << points;
+    EXPECT_NEAR(radius_of(rectangle, points), of_rectangle, 5e-3 * of_rectangle)
+        << points;
+  }
+  // Half a disc presses on one side only, and loses no torque as it starts to leave.
+  PolygonPad half;
+  for (int i = 0; i <= 20; ++i) {
+    half.outline.push_back(rotated(std::numbers::pi * i / 20, {0.01, 0.0}));
+  }
+  scene.gripper.pad = half;
+  const ContactRegion region(scene, 16);
+  const ContactPoints whole = region.at({});
+  double centre = 0.0;
+  double weight = 0.0;
+  for (int j = 0; j < whole.count; ++j) {
+    EXPECT_GT(whole.y[j], 0.0);
+    centre += whole.weight[j] * whole.y[j];
+    weight += whole.weight[j];
+  }
+  EXPECT_NEAR(weight, 1.0, 1e-12);
+  EXPECT_NEAR(centre, 4.0 * 0.01 / (3.0 * std::numbers::pi), 3e-4);
+  const ContactPoints clipped = region.at({0.0, -0.045, 0.0});
+  EXPECT_LT(clipped.coverage, 1.0);
+  EXPECT_GT(clipped.coverage, 0.3);
+}
+
+TEST(ContactRegion, PolygonPadsAreChecked) {
+  Scene scene;
+  scene.object.shape = BoxShape{{0.1, 0.1, 0.03}};
+  scene.object.mass = 0.1;
+  scene.gripper.grip_force = 10.0;
+  scene.gripper.pad = PolygonPad{{{0, 0}, {0.01, 0}, {0, 0.01}}};
+  EXPECT_TRUE(check(scene).empty());
+  scene.gripper.pressure.profile = PressureProfile::kHertz;
+  EXPECT_EQ(check(scene).size(), 1u);
+  scene.gripper.pressure = {};
+  scene.gripper.pad = PolygonPad{{{0, 0}, {0, 0.01}, {0.01, 0}}};
+  EXPECT_EQ(check(scene).size(), 1u);
+  scene.gripper.pad = PolygonPad{};
+  EXPECT_EQ(check(scene).size(), 1u);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "apps/commands.h"
 #include "apps/json_number.h"
 #include "apps/plan_report.h"
+#include "apps/push_options.h"
 #include "io/plan_file.h"
 #include "planner/planner.h"
 #include "planner/replay.h"
@@ -65,6 +66,7 @@ nlohmann::ordered_json to_json(const Replay& replay) {
 int run(const Options& options) {
   const PlanFile file = read_plan(options.file);
   const Model model = prepare(file.scene);
+  note_pad_plane(model);
   if (!file.plan.usable()) return check_refusal(model, file, options.json);
   const Replay replayed = replay(model, file.plan);
   if (options.json) {

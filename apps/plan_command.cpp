@@ -7,6 +7,7 @@
 
 #include "apps/commands.h"
 #include "apps/plan_report.h"
+#include "apps/push_options.h"
 #include "apps/table.h"
 #include "io/plan_file.h"
 #include "io/scene_file.h"
@@ -44,6 +45,7 @@ int run(const Options& options) {
   std::signal(SIGTERM, request_stop);
 
   const Model model = prepare(file.scene);
+  note_pad_plane(model);
   const Plan plan = plan_regrasp(model, plan_options);
   const std::string json = plan_to_json({file.scene, file.digest, plan});
   write_atomically(options.output, json);

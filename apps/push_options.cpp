@@ -1,5 +1,7 @@
 #include "apps/push_options.h"
 
+#include <algorithm>
+#include <cstdio>
 #include <numbers>
 
 #include <CLI/CLI.hpp>
@@ -139,6 +141,17 @@ Push chosen_push(const Model& model, int contact, const PushOptions& options,
                     .travel = travel,
                     .turn = turn,
                     .bend = kRadPerDeg * path.bend_deg};
+}
+
+void note_pad_plane(const Model& model) {
+  const bool any = std::any_of(
+      model.contacts.begin(), model.contacts.end(),
+      [&model](const PushContact& contact) { return model.needs_space(contact); });
+  if (!any) return;
+  std::fputs(
+      "note: answered in the pad plane; in space the load of the pads shifts as well "
+      "(prehensile inspect says why, query instant how much)\n",
+      stderr);
 }
 
 Vec2 chosen_direction(const Model& model, int contact, const PushOptions& options) {

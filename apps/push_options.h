@@ -29,6 +29,10 @@ Solver solver_called(const std::string& word);
 int chosen_contact(const Model& model, const PushOptions& options);
 Grasp chosen_grasp(const Model& model, const PushOptions& options);
 
+/// Says on stderr what the answer leaves out where the scene needs the spatial mechanics
+/// and the command knows the pad plane: nothing for scenes that do not.
+void note_pad_plane(const Model& model);
+
 /// Unit direction in O.
 Vec2 chosen_direction(const Model& model, int contact, const PushOptions& options);
 

@@ -69,6 +69,7 @@ int run(const Options& options) {
   const SceneFile file = read_scene(options.scene.file, options.scene.overrides);
   const Model model = prepare(file.scene, {.points_per_pad = options.points});
   const int contact = chosen_contact(model, options.push);
+  note_pad_plane(model);
   const Grasp grasp = chosen_grasp(model, options.push);
   if (!(model.F > 0.0)) {
     throw BadInput("gripper: a grasp without friction has no motion cone");

@@ -187,7 +187,9 @@ Vec2 long_direction(const std::vector<Vec2>& outline) {
 std::vector<Vec2> few_vertices(const std::vector<Vec2>& ring, double size,
                                const char* what, std::vector<std::string>& notes) {
   if (ring.size() < 3) throw BadMesh(std::string(what) + ": no area");
-  for (double tolerance = 1e-5 * size; tolerance <= 1e-2 * size; tolerance *= 2.0) {
+  constexpr int kDoublings = 10;  // up to a hundredth of the size
+  double tolerance = 1e-5 * size;
+  for (int i = 0; i < kDoublings; ++i, tolerance *= 2.0) {
     std::vector<Vec2> few = simplified(ring, tolerance);
     if (few.size() < 3 || few.size() > kMostOutline || !is_simple(few)) continue;
     if (tolerance > 1e-4 * size) {

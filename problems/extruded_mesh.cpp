@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include "scene/pad_quadrature.h"
+#include "scene/polygon_pieces.h"
 
 namespace prehensile {
 namespace {

@@ -110,112 +110,25 @@ ContactPoints line_points(const LinePad& pad, int points) {
   return result;
 }
 
-double area_of(const Triangle& t) {
-  return 0.5 * cross(t.vertices[1] - t.vertices[0], t.vertices[2] - t.vertices[0]);
-}
-
-Vec2 centroid_of(const Triangle& t) {
-  return (t.vertices[0] + t.vertices[1] + t.vertices[2]) / 3.0;
-}
-
-double longest_side(const Triangle& t) {
-  return std::max({(t.vertices[1] - t.vertices[0]).norm(),
-                   (t.vertices[2] - t.vertices[1]).norm(),
-                   (t.vertices[0] - t.vertices[2]).norm()});
-}
-
-/// Triangles of a polygon: around its centroid where that sees every edge from inside.
-std::vector<Triangle> compact_triangles(const std::vector<Vec2>& outline) {
-  const Vec2 centre = properties_of(outline).centroid;
-  std::vector<Triangle> fan;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    fan.push_back({{centre, outline[i], outline[(i + 1) % outline.size()]}});
-    if (!(area_of(fan.back()) > 0.0)) return triangulate(outline);
-  }
-  return fan;
-}
-
-/// Cuts a polygon into at least `count` triangles, the longest one halved again and again
-/// across its longest side.
-std::vector<Triangle> pieces_of(const std::vector<Vec2>& outline, std::size_t count) {
-  const auto shorter = [](const Triangle& a, const Triangle& b) {
-    return longest_side(a) < longest_side(b);
-  };
-  std::vector<Triangle> pieces = compact_triangles(outline);
-  std::make_heap(pieces.begin(), pieces.end(), shorter);
-  while (pieces.size() < count) {
-    std::pop_heap(pieces.begin(), pieces.end(), shorter);
-    Triangle whole = pieces.back();
-    const double longest = longest_side(whole);
-    while ((whole.vertices[1] - whole.vertices[0]).norm() < longest) {
-      std::rotate(whole.vertices.begin(), whole.vertices.begin() + 1,
-                  whole.vertices.end());
-    }
-    const auto& [a, b, c] = whole.vertices;
-    const Vec2 middle = 0.5 * (a + b);
-    pieces.back() = {{a, middle, c}};
-    std::push_heap(pieces.begin(), pieces.end(), shorter);
-    pieces.push_back({{middle, b, c}});
-    std::push_heap(pieces.begin(), pieces.end(), shorter);
-  }
-  return pieces;
-}
-
-using Pieces = std::vector<Triangle>::iterator;
-
-/// Parts of like area: halves of halves, each cut across its longer extent; their centres
-/// become points.
-void add_parts(Pieces first, Pieces last, int parts, double whole,
-               ContactPoints& points) {
-  double area = 0.0;
-  Vec2 moment = Vec2::Zero();
-  Vec2 low = Vec2::Constant(1e9);
-  Vec2 high = Vec2::Constant(-1e9);
-  for (Pieces piece = first; piece != last; ++piece) {
-    const Vec2 centre = centroid_of(*piece);
-    area += area_of(*piece);
-    moment += area_of(*piece) * centre;
-    low = low.cwiseMin(centre);
-    high = high.cwiseMax(centre);
-  }
-  if (parts == 1) {
-    if (area > 0.0) add(points, moment / area, area / whole);
-    return;
-  }
-  const int axis = high.x() - low.x() >= high.y() - low.y() ? 0 : 1;
-  std::sort(first, last, [axis](const Triangle& a, const Triangle& b) {
-    return centroid_of(a)[axis] < centroid_of(b)[axis];
-  });
-  Pieces middle = first;
-  for (double half = 0.0; middle != last && half < 0.5 * area; ++middle) {
-    half += area_of(*middle);
-  }
-  add_parts(first, middle, parts / 2, whole, points);
-  add_parts(middle, last, parts / 2, whole, points);
-}
-
 /// Centres of compact parts, moved out from the finger axis by the little that gives them
 /// the torque of the polygon.
 ContactPoints polygon_points(const std::vector<Vec2>& outline, int points) {
   ContactPoints result;
   result.coverage = 1.0;
   constexpr std::size_t kFine = 4096;
-  std::vector<Triangle> pieces = pieces_of(outline, kFine);
+  const std::vector<Triangle> pieces = pieces_of(outline, kFine);
   double area = 0.0;
   double lever = 0.0;
   for (const Triangle& piece : pieces) {
     area += area_of(piece);
     lever += area_of(piece) * centroid_of(piece).norm();
   }
-  add_parts(pieces.begin(), pieces.end(), points, area, result);
-  double of_points = 0.0;
-  for (int j = 0; j < result.count; ++j) {
-    of_points += result.weight[j] * std::hypot(result.x[j], result.y[j]);
-  }
-  const double stretch = of_points > 0.0 ? lever / area / of_points : 1.0;
-  for (int j = 0; j < result.count; ++j) {
-    result.x[j] *= stretch;
-    result.y[j] *= stretch;
+  const std::vector<PolygonPart> parts = parts_of(pieces, points);
+  double of_parts = 0.0;
+  for (const PolygonPart& part : parts) of_parts += part.area * part.centroid.norm();
+  const double stretch = of_parts > 0.0 ? lever / of_parts : 1.0;
+  for (const PolygonPart& part : parts) {
+    add(result, stretch * part.centroid, part.area / area);
   }
   return result;
 }
@@ -301,8 +214,8 @@ std::vector<PadCell> line_cells(const LinePad& pad, int per_side) {
 
 std::vector<PadCell> polygon_cells(const std::vector<Vec2>& outline, int per_side) {
   std::vector<PadCell> cells;
-  for (const Triangle& piece :
-       pieces_of(outline, static_cast<std::size_t>(per_side * per_side))) {
+  const auto side = static_cast<std::size_t>(per_side);
+  for (const Triangle& piece : pieces_of(outline, side * side)) {
     PadCell& cell = cells.emplace_back();
     cell.count = 3;
     std::copy(piece.vertices.begin(), piece.vertices.end(), cell.vertices.begin());
@@ -450,43 +363,6 @@ std::vector<PadCell> pad_cells(const Pad& pad, const PadPressure& pressure,
     cell.centroid *= wanted * load / torque;
   }
   return cells;
-}
-
-std::vector<Triangle> triangulate(const std::vector<Vec2>& outline) {
-  std::vector<Vec2> rest = outline;
-  std::vector<Triangle> triangles;
-  const auto is_ear = [&rest](std::size_t i) {
-    const std::size_t n = rest.size();
-    const Vec2& a = rest[(i + n - 1) % n];
-    const Vec2& b = rest[i];
-    const Vec2& c = rest[(i + 1) % n];
-    if (cross(b - a, c - b) <= 0.0) return false;
-    return std::none_of(rest.begin(), rest.end(), [&](const Vec2& p) {
-      if (p == a || p == b || p == c) return false;
-      return cross(b - a, p - a) >= 0.0 && cross(c - b, p - b) >= 0.0 &&
-             cross(a - c, p - c) >= 0.0;
-    });
-  };
-  while (rest.size() > 2) {
-    std::size_t ear = 0;
-    while (ear < rest.size() && !is_ear(ear)) ++ear;
-    if (ear == rest.size()) {  // what remains is flat at some vertex: drop the flattest
-      const auto turn = [&rest](std::size_t i) {
-        const std::size_t n = rest.size();
-        return std::abs(
-            cross(rest[i] - rest[(i + n - 1) % n], rest[(i + 1) % n] - rest[i]));
-      };
-      ear = 0;
-      for (std::size_t i = 1; i < rest.size(); ++i) {
-        if (turn(i) < turn(ear)) ear = i;
-      }
-    } else {
-      const std::size_t n = rest.size();
-      triangles.push_back({{rest[(ear + n - 1) % n], rest[ear], rest[(ear + 1) % n]}});
-    }
-    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(ear));
-  }
-  return triangles;
 }
 
 PressedCell press(const PadCell& cell, const std::vector<Triangle>& face,

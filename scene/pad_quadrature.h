@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scene/contact_region.h"
+#include "scene/polygon_pieces.h"
 
 namespace prehensile {
 
@@ -59,14 +60,6 @@ struct PadCell {
 /// few tenths of a per cent that give them the torque radius of `pad_points`: so the pad
 /// loses no torque at the moment it starts to leave the face.
 std::vector<PadCell> pad_cells(const Pad& pad, const PadPressure& pressure, int per_side);
-
-/// A triangle of the outline, counter-clockwise, in O.
-struct Triangle {
-  std::array<Vec2, 3> vertices;
-};
-
-/// Ear clipping of a simple counter-clockwise polygon.
-std::vector<Triangle> triangulate(const std::vector<Vec2>& outline);
 
 /// The part of a cell that lies on the face; measure 0 if none.
 struct PressedCell {

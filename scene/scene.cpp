@@ -194,15 +194,12 @@ void check_pad(Checker& checker, const Gripper& gripper, const Object& object) {
   }
 }
 
-void check_pressure(Checker& checker, const PadPressure& pressure) {
-  const std::string field = "gripper.pressure";
-  checker.in_range(field + ".compliance", pressure.compliance, 1e-8, 1e3, "");
-  checker.in_range(field + ".edge_load", pressure.edge_load, -1.0, 3.0, "");
-}
-
 void check_gripper(Checker& checker, const Gripper& gripper, const Object& object) {
   check_pad(checker, gripper, object);
-  check_pressure(checker, gripper.pressure);
+  checker.in_range("gripper.pressure.compliance", gripper.pressure.compliance, 1e-8, 1e3,
+                   "");
+  checker.in_range("gripper.pressure.edge_load", gripper.pressure.edge_load, -1.0, 3.0,
+                   "");
   for (const double mu : gripper.friction) {
     checker.in_range("gripper.friction", mu, 0.0, 1e3, "");
   }

@@ -92,6 +92,16 @@ TEST(Program, TheSolverIsTheOneThatTheQuestionNeeds) {
   EXPECT_EQ(solver("--set 'gripper.pad={point: {spin_radius: 0.006}}'"), "closed");
 }
 
+/// Commands that know the pad plane say so where the scene needs more.
+TEST(Program, WhatThePadPlaneLeavesOutIsSaid) {
+  const std::string push = "query push problems/";
+  EXPECT_EQ(run_program(push + "paper/slide.yaml --travel-mm 5").err.find("note:"),
+            std::string::npos);
+  const Outcome tilted = run_program(push + "tilted_hand.yaml --travel-mm 5 --json");
+  EXPECT_NE(tilted.err.find("note: answered in the pad plane"), std::string::npos);
+  EXPECT_NO_THROW(static_cast<void>(json::parse(tilted.out)));
+}
+
 /// A straight slide of an object with mass: the force grows by mass times acceleration,
 /// in the pad plane and in space.
 TEST(Program, AccelerationCostsItsInertia) {

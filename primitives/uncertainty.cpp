@@ -116,6 +116,7 @@ UncertainPush vary(const Scene& scene, const Grasp& start, const Push& push,
   const Vec2 shift(offset(Unknown::kCentreOfMassX), offset(Unknown::kCentreOfMassY));
   if (!shift.isZero(0.0)) {
     out.scene.object.p_OCom = Vec2(centre_of_mass(scene.object) + shift);
+    out.scene.object.z_OCom = height_of_mass(scene.object);
   }
   std::visit(MovePush{offset(Unknown::kPlace), offset(Unknown::kTravel),
                       offset(Unknown::kDirection)},

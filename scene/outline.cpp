@@ -122,6 +122,9 @@ std::vector<Face> faces_of(const Shape& shape) {
     if (face.on_hull) face.name = side_name(face.n);
     face.z_low = solid ? solid->heights[i].x() : -half;
     face.z_high = solid ? solid->heights[i].y() : half;
+    if (cylinder && std::abs(face.n[static_cast<int>(cylinder->axis)]) < 0.5) {
+      face.z_low = face.z_high = 0.0;  // a round side is met along one line
+    }
     faces.push_back(face);
   }
   for (std::size_t i = 0; i < faces.size(); ++i) {

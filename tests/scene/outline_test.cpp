@@ -93,5 +93,18 @@ TEST(HalfThickness, IsThatOfTheShape) {
   EXPECT_EQ(half_thickness(PrismShape{.outline = {}, .thickness = 0.04}), 0.02);
 }
 
+/// How high the side of an object is decides which pushers meet it.
+TEST(Outline, SidesHaveHeights) {
+  for (const Face& face : faces_of(BoxShape{{0.1, 0.06, 0.03}})) {
+    EXPECT_EQ(face.z_low, -0.015);
+    EXPECT_EQ(face.z_high, 0.015);
+  }
+  const std::vector<Face> can = faces_of(CylinderShape{0.02, 0.1, Axis::kX});
+  for (const Face& face : can) {
+    const bool is_round = std::abs(face.n.y()) > 0.5;
+    EXPECT_EQ(face.z_high, is_round ? 0.0 : 0.02) << face.name;
+  }
+}
+
 }  // namespace
 }  // namespace prehensile

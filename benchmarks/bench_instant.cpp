@@ -229,13 +229,14 @@ void study_sequence(const Options& options, std::vector<Run>& runs) {
 
 /// A point that sticks takes the closed form five square roots (rate of the pusher,
 /// motion, friction, misfit, push force) and seven divisions (three units, motion twice,
-/// friction, force at the point). Here they follow each other with nothing between.
-double roots_and_divisions_us() {
+/// friction, force at the point): here one after the other. `chained`: so are the calls.
+double roots_and_divisions_us(bool chained) {
   const volatile double seed = 1.7;
   [[maybe_unused]] volatile double used = 0.0;
+  double x = seed;
   return time_us(
       [&] {
-        double x = seed;
+        if (!chained) x = seed;
         for (int k = 0; k < 5; ++k) x = std::sqrt(x + 1.0);
         for (int k = 0; k < 7; ++k) x = 1.0 / (x + 0.5);
         used = x;
@@ -244,25 +245,32 @@ double roots_and_divisions_us() {
 }
 
 void write_closed_form(const Options& options, std::FILE* out) {
-  std::vector<double> sticks;
   std::vector<double> all;
+  std::vector<double> sticks;
+  std::vector<double> chained_sticks;
   [[maybe_unused]] volatile double used = 0.0;
   for (int index = 0; index < options.instances; ++index) {
-    const RandomInstant q = random_instant(options.seed, index, {.points_per_pad = 16});
+    RandomInstant q = random_instant(options.seed, index, {.points_per_pad = 16});
     const LimitSurface surface{q.grasp.capacity(), torque_radius(q.grasp)};
-    const auto solve = [&] { return solve_limit_surface(surface, q.grasp.w_g, q.drive); };
+    PlanarWrench& w_g = q.grasp.w_g;
+    const auto solve = [&] { return solve_limit_surface(surface, w_g, q.drive); };
     const PlanarInstant answer = solve();
     if (answer.status != InstantStatus::kMoves) continue;
     all.push_back(time_us([&] { used = solve().residual; }, options.batches));
-    const bool point = q.drive.count == 1 && answer.pusher[0].mode == ContactMode::kStick;
-    if (point) sticks.push_back(all.back());
+    if (q.drive.count != 1 || answer.pusher[0].mode != ContactMode::kStick) continue;
+    sticks.push_back(all.back());
+    chained_sticks.push_back(
+        time_us([&] { w_g[2] += 1e-300 * solve().push_force; }, options.batches));
   }
-  const double bare = roots_and_divisions_us();
-  std::fprintf(out,
-               "closed form: median %.4f us; a point that sticks %.4f us, its square "
-               "roots and divisions alone %.4f us (1 : %.1f)\n",
-               quantile(all, 0.5), quantile(sticks, 0.5), bare,
-               quantile(sticks, 0.5) / bare);
+  const double bare = roots_and_divisions_us(false);
+  const double bare_chained = roots_and_divisions_us(true);
+  const double point = quantile(sticks, 0.5);
+  const double chained = quantile(chained_sticks, 0.5);
+  std::fprintf(
+      out,
+      "closed form: median %.4f us; a point that sticks %.4f us, 1 : %.1f of its "
+      "roots and divisions; calls in a chain %.4f us, 1 : %.1f\n",
+      quantile(all, 0.5), point, point / bare, chained, chained / bare_chained);
 }
 
 void write_csv(const Options& options, const std::vector<Run>& runs, std::FILE* out) {

@@ -66,7 +66,8 @@ class PlaceCollector {
  private:
   void add(double theta, const Vec2& position) {
     const Vec2 p_OF = -rotated(-theta, position);
-    if (places_.count == GoalPlaces::kCapacity || !contains(model_.pad_face, p_OF)) return;
+    if (places_.count == GoalPlaces::kCapacity || !contains(model_.pad_face, p_OF))
+      return;
     GoalPlace& place = places_.places[places_.count++];
     place.p_OF = p_OF;
     place.count = goal_.theta ? 3 : 1;

@@ -46,7 +46,8 @@ class LegTable {
 };
 
 bool is_node(const SearchModel& search, const Vec2& p_OF, double depth) {
-  return depth_inside(search.model->pad_face, p_OF) >= depth && held_by_some(search, p_OF);
+  return depth_inside(search.model->pad_face, p_OF) >= depth &&
+         held_by_some(search, p_OF);
 }
 
 }  // namespace

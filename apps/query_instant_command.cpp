@@ -211,10 +211,24 @@ Sensitivities spatial_sensitivities(const Asked& asked, const SpatialProblem& pr
   return changes;
 }
 
+/// No solver is needed to see that nothing balances.
+int fall(const Options& options, const std::string& question_words) {
+  const char* why = "the jaws cannot carry gravity along the closing direction";
+  if (options.scene.json) {
+    const nlohmann::ordered_json out = {
+        {"question", question_words}, {"status", "dynamic"}, {"meaning", why}};
+    std::printf("%s\n", out.dump(2).c_str());
+  } else {
+    std::printf("%s\ndynamic: %s: the object falls\n", question_words.c_str(), why);
+  }
+  return kNegative;
+}
+
 /// One solver's answer, as that solver can tell it.
 int answer_one(const Options& options, const Asked& asked,
                const std::string& question_words, const InstantQuestion& question,
                const SolverOptions& how) {
+  if (question.falls) return fall(options, question_words);
   const SolverChoice choice = chosen_solver(question);
   const bool chose = how.solver == Solver::kChoose;
   const Solver solver = chose ? choice.solver : how.solver;

@@ -131,6 +131,11 @@ SweepRow ask_instant(const Model& model, const SweepQuestion& question) {
     }
   }
   const InstantQuestion asked = question_at(model, pusher, place, grasp.X_HO, V_HP, how);
+  if (asked.falls) {
+    SweepRow row = row_of(InstantStatus::kDynamic, kNan);
+    row.values.assign(sweep_columns(SweepOf::kInstant).size(), kNan);
+    return row;
+  }
   Solver solver = solver_called(question.solver);
   if (solver == Solver::kChoose) solver = chosen_solver(asked).solver;
   if (const char* why = refusal(solver, asked)) {

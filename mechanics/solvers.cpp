@@ -114,6 +114,8 @@ InstantQuestion question_at(const Model& model, const PushContact& contact, doub
   if (options.from_rest) add_inertia(model, X_HO, question.grasp);
   question.drive = drive_at(contact, place, X_HO, in_pad_plane(V_HP));
   question.spatial = spatial_problem_at(model, contact, place, X_HO, V_HP, options);
+  question.falls =
+      model.scene.g_Wz != 0.0 && model.jaw_force[0] == 0.0 && model.jaw_force[1] == 0.0;
   question.from_rest = options.from_rest;
   question.is_planar = lies_in_pad_plane(V_HP) && model.load_shifts.empty() &&
                        (options.height ? *options.height == 0.0 : contact.is_symmetric());
@@ -159,6 +161,10 @@ InstantAnswer solve(const InstantQuestion& question, const SolverOptions& option
   InstantAnswer answer;
   answer.solver =
       options.solver == Solver::kChoose ? chosen_solver(question).solver : options.solver;
+  if (question.falls) {
+    answer.status = InstantStatus::kDynamic;
+    return answer;
+  }
   if (refusal(answer.solver, question) != nullptr) {
     answer.status = InstantStatus::kBadInput;
     return answer;

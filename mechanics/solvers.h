@@ -43,6 +43,8 @@ struct InstantQuestion {
   SpatialProblem spatial;      ///< no points: see spatial_problem_at
   bool is_planar = true;       ///< the pad plane says all there is to say
   bool is_soft_point = false;  ///< the ellipsoid is the law of the pads, not a stand-in
+  bool falls = false;          ///< the jaws cannot carry gravity along the closing
+                               ///< direction, whatever the pusher does: kDynamic
   bool from_rest = false;      ///< rates are accelerations from rest
 };
 
@@ -87,7 +89,8 @@ struct InstantAnswer {
   bool certified(double tolerance = 1e-6) const { return certificate <= tolerance; }
 };
 
-/// kBadInput where `refusal` has something to say. Cold path: the answer is large.
+/// kDynamic where the object falls through the jaws, without a solver; kBadInput where
+/// `refusal` has something to say. Cold path: the answer is large.
 InstantAnswer solve(const InstantQuestion& question, const SolverOptions& options = {});
 
 }  // namespace prehensile

@@ -146,6 +146,25 @@ TEST(Solvers, ProfilesChangeTheTorqueRadius) {
   EXPECT_LT(prepare(scene).c, 2.0 / 3.0 * r);
 }
 
+/// A weight along the closing direction that the jaws cannot carry is a result.
+TEST(Solvers, WhatFallsThroughTheJawsIsDynamic) {
+  Scene scene = box_scene();
+  scene.g_W = Vec2::Zero();
+  scene.g_Wz = -9.81;
+  scene.object.mass = 10.0;
+  const auto status = [&scene] {
+    const Model model = prepare(scene);
+    return solve(
+               question_at(model, model.contacts[0], 0.0, {}, in_space({0.01, 0.0, 0.0})))
+        .status;
+  };
+  EXPECT_EQ(status(), InstantStatus::kDynamic);
+  scene.gripper.grip_force = 60.0;
+  EXPECT_NE(status(), InstantStatus::kDynamic);
+  scene.gripper.jaw_mode = JawMode::kIndependent;
+  EXPECT_EQ(status(), InstantStatus::kDynamic);
+}
+
 TEST(Solvers, RefusalsSayWhy) {
   const Model model = prepare(box_scene());
   SpatialTwist V_HP = in_space({0.01, 0.0, 0.0});

@@ -55,10 +55,11 @@ void expect_reasons(const json& value, const std::string& query) {
 
 /// The reason of a negative answer, wherever the query keeps it.
 bool has_reason(const json& answer) {
+  const auto says = [](const json& words) { return !words.get<std::string>().empty(); };
   for (const char* key : {"reason", "meaning"}) {
-    if (answer.contains(key) && answer.at(key) != "") return true;
+    if (answer.contains(key) && says(answer.at(key))) return true;
   }
-  if (answer.contains("nominal")) return answer.at("nominal").at("reason") != "";
+  if (answer.contains("nominal")) return says(answer.at("nominal").at("reason"));
   // Rows and contacts say why themselves; an empty cone is its own reason.
   return answer.contains("rows") || answer.contains("contacts") ||
          answer.contains("slices");

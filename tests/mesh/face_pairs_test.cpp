@@ -16,6 +16,7 @@ using testing::Random;
 
 std::vector<Vec2> regular(int count, double radius) {
   std::vector<Vec2> ring;
+  ring.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     ring.push_back(rotated(2.0 * std::numbers::pi * i / count, {radius, 0.0}));
   }

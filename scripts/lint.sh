@@ -6,13 +6,27 @@ cd "$(dirname "$0")/.."
 
 bash scripts/install_dependencies.sh --lint
 mapfile -t sources < <(git ls-files '*.h' '*.cpp')
+if [ ${#sources[@]} -eq 0 ]; then
+  echo "error: git lists no sources: expected a checkout of the project" >&2
+  exit 1
+fi
 clang-format --dry-run --Werror "${sources[@]}"
 echo "clang-format: ${#sources[@]} files clean"
 
 cmake --preset release >/dev/null
-mapfile -t units < <(git ls-files '*.cpp' | while read -r unit; do
-  if grep -q "\"file\": \"$PWD/$unit\"" build/release/compile_commands.json; then echo "$unit"; fi
-done)
+units=()
+for unit in "${sources[@]}"; do
+  case "$unit" in *.cpp) ;; *) continue ;; esac
+  if grep -q "\"file\": \"$PWD/$unit\"" build/release/compile_commands.json; then
+    units+=("$unit")
+  else
+    echo "not part of this build, not linted: $unit"
+  fi
+done
+if [ ${#units[@]} -eq 0 ]; then
+  echo "error: build/release compiles none of the sources" >&2
+  exit 1
+fi
 printf '%s\0' "${units[@]}" |
   xargs -0 -n 1 -P "$(nproc)" clang-tidy --quiet --warnings-as-errors='*' -p build/release \
     2> >(grep -v -E 'warnings? generated|Suppressed|Use -header-filter' >&2)

@@ -288,12 +288,5 @@ TEST_F(Reference, EqualQuestionsGiveEqualNumbers) {
   EXPECT_EQ(one.iterations, two.iterations);
 }
 
-TEST(ReferenceAbsent, SaysSo) {
-  if (reference_is_built()) GTEST_SKIP() << "built with Ipopt";
-  const PlanarDrive drive = point_drive({-0.05, 0.0}, {1.0, 0.0}, 0.3, {0.01, 0.0});
-  EXPECT_EQ(solve_reference(disc_grasp(6, 0.01, 20.0), drive).status,
-            InstantStatus::kNotRun);
-}
-
 }  // namespace
 }  // namespace prehensile

@@ -101,12 +101,5 @@ TEST_F(Ipopt, ThreadsTakeTurns) {
   for (const double w : worst) EXPECT_LT(w, 1e-5);
 }
 
-TEST(IpoptAbsent, SaysSo) {
-  if (ipopt_is_built()) GTEST_SKIP() << "built with Ipopt";
-  const NlpResult result = minimise_ipopt(rosenbrock());
-  EXPECT_EQ(result.status, NlpStatus::kNotBuilt);
-  EXPECT_EQ(result.x, rosenbrock().start);
-}
-
 }  // namespace
 }  // namespace prehensile

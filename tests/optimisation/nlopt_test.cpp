@@ -119,12 +119,5 @@ TEST_F(Nlopt, RefusesMalformedPrograms) {
   EXPECT_TRUE(refused([](NonlinearProgram& p) { p.hessian_columns[0] = -1; }));
 }
 
-TEST(NloptAbsent, SaysSo) {
-  if (nlopt_is_built()) GTEST_SKIP() << "built with NLopt";
-  const NlpResult result = minimise_nlopt(rosenbrock(), LocalMethod::kSlsqp);
-  EXPECT_EQ(result.status, NlpStatus::kNotBuilt);
-  EXPECT_EQ(result.x, rosenbrock().start);
-}
-
 }  // namespace
 }  // namespace prehensile

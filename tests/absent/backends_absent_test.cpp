@@ -1,0 +1,54 @@
+/// What is left where NLopt and Ipopt were switched off: linked with the sources that
+/// stand in for them, in every build, so that absence is tested wherever the tests run.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "mechanics/reference.h"
+#include "mechanics/solvers.h"
+#include "mechanics/spatial_reference.h"
+#include "problems/random_spatial.h"
+#include "tests/mechanics/instant_cases.h"
+#include "tests/optimisation/classic_programs.h"
+
+namespace prehensile {
+namespace {
+
+using testing::disc_grasp;
+using testing::point_drive;
+using testing::rosenbrock;
+
+TEST(BackendsAbsent, MinimisersReturnTheStartAndSaySo) {
+  EXPECT_FALSE(nlopt_is_built());
+  EXPECT_FALSE(ipopt_is_built());
+  for (const NlpResult& result : {minimise_nlopt(rosenbrock(), LocalMethod::kSlsqp),
+                                  minimise_ipopt(rosenbrock())}) {
+    EXPECT_EQ(result.status, NlpStatus::kNotBuilt);
+    EXPECT_EQ(result.x, rosenbrock().start);
+    EXPECT_NE(result.message.find("built without"), std::string::npos);
+  }
+}
+
+TEST(BackendsAbsent, ReferencesAreNotRun) {
+  EXPECT_FALSE(reference_is_built());
+  EXPECT_FALSE(spatial_reference_is_built());
+  const PlanarDrive drive = point_drive({-0.05, 0.0}, {1.0, 0.0}, 0.3, {0.01, 0.0});
+  EXPECT_EQ(solve_reference(disc_grasp(6, 0.01, 20.0), drive).status,
+            InstantStatus::kNotRun);
+  EXPECT_EQ(solve_spatial_reference(random_spatial(1, 0, {.points_per_pad = 2})).status,
+            SpatialReferenceStatus::kNotRun);
+}
+
+TEST(BackendsAbsent, SolversAreListedWithoutThem) {
+  const std::vector<Solver> built = built_solvers();
+  for (const Solver solver : {Solver::kPlanarReference, Solver::kSpatialReference}) {
+    EXPECT_EQ(std::count(built.begin(), built.end(), solver), 0) << name(solver);
+  }
+  for (const Solver solver : {Solver::kPlanar, Solver::kClosedForm, Solver::kSpatial,
+                              Solver::kSpatialPivoting}) {
+    EXPECT_EQ(std::count(built.begin(), built.end(), solver), 1) << name(solver);
+  }
+}
+
+}  // namespace
+}  // namespace prehensile

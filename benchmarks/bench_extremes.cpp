@@ -14,13 +14,13 @@
 ///                       [-o FILE]
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "benchmarks/csv_file.h"
 #include "benchmarks/measure.h"
+#include "benchmarks/options.h"
 #include "mechanics/certificate.h"
 #include "mechanics/limit_surface.h"
 #include "mechanics/planar_instant.h"
@@ -332,33 +332,15 @@ void write_table(const std::vector<Run>& runs, std::FILE* out) {
 }
 
 bool read_options(int count, char** arguments, Options& options) {
-  for (int i = 1; i < count; ++i) {
-    const std::string option = arguments[i];
-    if (option == "--quick") {
-      options.instances = 5;
-      options.peer_instances = 0;
-      continue;
-    }
-    if (i + 1 >= count) return false;
-    const char* const value = arguments[++i];
-    if (option == "-o") {
-      options.file = value;
-      continue;
-    }
-    char* end = nullptr;
-    const long long number = std::strtoll(value, &end, 10);
-    if (end == value || *end != '\0' || number < 0) return false;
-    if (option == "--seed") {
-      options.seed = static_cast<std::uint64_t>(number);
-    } else if (option == "--instances") {
-      options.instances = static_cast<int>(number);
-    } else if (option == "--peer-instances") {
-      options.peer_instances = static_cast<int>(number);
-    } else {
-      return false;
-    }
-  }
-  return true;
+  return take_options(count, arguments,
+                      {{"-o", &options.file},
+                       {"--seed", &options.seed},
+                       {"--instances", &options.instances},
+                       {"--peer-instances", &options.peer_instances}},
+                      [&options] {
+                        options.instances = 5;
+                        options.peer_instances = 0;
+                      });
 }
 
 int run(int count, char** arguments) {

@@ -13,13 +13,13 @@
 ///                      [-o FILE]
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <vector>
 
 #include "benchmarks/csv_file.h"
 #include "benchmarks/measure.h"
+#include "benchmarks/options.h"
 #include "mechanics/certificate.h"
 #include "mechanics/limit_surface.h"
 #include "mechanics/planar_instant.h"
@@ -328,49 +328,18 @@ void write_summary(const std::vector<Run>& runs, std::FILE* out) {
   }
 }
 
-bool read_number(const char* text, long long& value) {
-  char* end = nullptr;
-  value = std::strtoll(text, &end, 10);
-  return end != text && *end == '\0' && value >= 0;
-}
-
-void make_quick(Options& options) {
-  options.instances = 10;
-  options.ipopt_instances = 2;
-  options.generators = {4, 8};
-  options.batches = 1;
-}
-
-/// False for an option that is not known or has no value.
-bool read_option(const std::string& option, const char* value, Options& options) {
-  if (option == "-o") {
-    options.file = value;
-    return value != nullptr;
-  }
-  long long number = 0;
-  if (!value || !read_number(value, number)) return false;
-  if (option == "--seed") {
-    options.seed = static_cast<std::uint64_t>(number);
-    return true;
-  }
-  int* const count = option == "--instances"         ? &options.instances
-                     : option == "--ipopt-instances" ? &options.ipopt_instances
-                                                     : nullptr;
-  if (count) *count = static_cast<int>(number);
-  return count != nullptr;
-}
-
 bool read_options(int count, char** arguments, Options& options) {
-  for (int i = 1; i < count; ++i) {
-    const std::string option = arguments[i];
-    if (option == "--quick") {
-      make_quick(options);
-      continue;
-    }
-    const char* const value = i + 1 < count ? arguments[++i] : nullptr;
-    if (!read_option(option, value, options)) return false;
-  }
-  return true;
+  return take_options(count, arguments,
+                      {{"-o", &options.file},
+                       {"--seed", &options.seed},
+                       {"--instances", &options.instances},
+                       {"--ipopt-instances", &options.ipopt_instances}},
+                      [&options] {
+                        options.instances = 10;
+                        options.ipopt_instances = 2;
+                        options.generators = {4, 8};
+                        options.batches = 1;
+                      });
 }
 
 int run(int count, char** arguments) {

@@ -8,7 +8,6 @@
 /// that this completes are measured.
 /// Usage: bench_integrators [--quick] [--pushes N] [--seed S] [-o FILE] [--charts FILE]
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <map>
 #include <string>
@@ -17,6 +16,7 @@
 #include "benchmarks/csv_file.h"
 #include "benchmarks/fixed_step.h"
 #include "benchmarks/measure.h"
+#include "benchmarks/options.h"
 #include "benchmarks/write_charts.h"
 #include "problems/random_pushes.h"
 
@@ -268,32 +268,16 @@ bool write_charts(const std::vector<Run>& runs, const char* file) {
 }
 
 bool read_options(int count, char** arguments, Options& options) {
-  for (int i = 1; i < count; ++i) {
-    const std::string option = arguments[i];
-    if (option == "--quick") {
-      options.quick = true;
-      options.pushes = 3;
-      options.batches = 1;
-      continue;
-    }
-    if (i + 1 == count) return false;
-    const char* value = arguments[++i];
-    char* end = nullptr;
-    const long long number = std::strtoll(value, &end, 10);
-    const bool is_number = end != value && *end == '\0' && number >= 0;
-    if (option == "-o") {
-      options.file = value;
-    } else if (option == "--charts") {
-      options.charts = value;
-    } else if (is_number && option == "--pushes") {
-      options.pushes = static_cast<int>(number);
-    } else if (is_number && option == "--seed") {
-      options.seed = static_cast<std::uint64_t>(number);
-    } else {
-      return false;
-    }
-  }
-  return true;
+  return take_options(count, arguments,
+                      {{"-o", &options.file},
+                       {"--charts", &options.charts},
+                       {"--pushes", &options.pushes},
+                       {"--seed", &options.seed}},
+                      [&options] {
+                        options.quick = true;
+                        options.pushes = 3;
+                        options.batches = 1;
+                      });
 }
 
 int run(int count, char** arguments) {

@@ -7,12 +7,12 @@
 /// search, polish, exact check, bound. A run counts as solved if its plan replays.
 /// `--help` shows the options.
 #include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "benchmarks/csv_file.h"
 #include "benchmarks/measure.h"
+#include "benchmarks/options.h"
 #include "planner/frame.h"
 #include "planner/push_search.h"
 #include "planner/replay.h"
@@ -164,41 +164,20 @@ void write_summary(const std::vector<std::string>& planners, const std::vector<R
   }
 }
 
-bool read_number(const char* text, int& value) {
-  char* end = nullptr;
-  const long number = std::strtol(text, &end, 10);
-  value = static_cast<int>(number);
-  return end != text && *end == '\0' && number >= 0 && number <= 1'000'000;
-}
-
 bool read_options(int count, char** arguments, Options& options) {
-  for (int i = 1; i < count; ++i) {
-    const std::string option = arguments[i];
-    if (option == "--quick") {
-      options.problems = 3;
-      options.seeds = 1;
-      options.time_ms = 200;
-      continue;
-    }
-    if (i + 1 == count) return false;
-    const char* value = arguments[++i];
-    if (option == "-o") {
-      options.file = value;
-    } else if (option == "--set") {
-      options.set = value;
-    } else if (option == "--planner") {
-      options.planner = value;
-    } else if (option == "--problems") {
-      if (!read_number(value, options.problems)) return false;
-    } else if (option == "--seeds") {
-      if (!read_number(value, options.seeds)) return false;
-    } else if (option == "--time-ms") {
-      if (!read_number(value, options.time_ms)) return false;
-    } else {
-      return false;
-    }
-  }
-  return options.set == "published" || options.set == "constructed";
+  return take_options(count, arguments,
+                      {{"-o", &options.file},
+                       {"--set", &options.set},
+                       {"--planner", &options.planner},
+                       {"--problems", &options.problems},
+                       {"--seeds", &options.seeds},
+                       {"--time-ms", &options.time_ms}},
+                      [&options] {
+                        options.problems = 3;
+                        options.seeds = 1;
+                        options.time_ms = 200;
+                      }) &&
+         (options.set == "published" || options.set == "constructed");
 }
 
 std::vector<std::string> wanted_planners(const Options& options) {

@@ -12,13 +12,13 @@
 /// Usage: bench_precision [--quick] [--instances N] [--peer-instances N] [--seed S]
 ///                        [--plots FOLDER] [-o FILE]
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <string>
 
 #include "benchmarks/csv_file.h"
 #include "benchmarks/measure.h"
+#include "benchmarks/options.h"
 #include "benchmarks/precision_plots.h"
 #include "benchmarks/spatial_runs.h"
 #include "benchmarks/svg_file.h"
@@ -244,41 +244,20 @@ bool write_plots(const Options& options, const std::vector<PrecisionRun>& runs,
 }
 
 bool read_options(int count, char** arguments, Options& options) {
-  for (int i = 1; i < count; ++i) {
-    const std::string option = arguments[i];
-    if (option == "--quick") {
-      options.instances = 3;
-      options.peer_instances = 2;
-      options.points = {2, 4};
-      options.batches = 1;
-      options.peers = false;
-      continue;
-    }
-    if (i + 1 >= count) return false;
-    const char* const value = arguments[++i];
-    if (option == "-o") {
-      options.file = value;
-      continue;
-    }
-    if (option == "--plots") {
-      options.plots = value;
-      if (!std::filesystem::is_directory(options.plots)) return false;
-      continue;
-    }
-    char* end = nullptr;
-    const long long number = std::strtoll(value, &end, 10);
-    if (end == value || *end != '\0' || number < 0) return false;
-    if (option == "--seed") {
-      options.seed = static_cast<std::uint64_t>(number);
-    } else if (option == "--instances") {
-      options.instances = static_cast<int>(number);
-    } else if (option == "--peer-instances") {
-      options.peer_instances = static_cast<int>(number);
-    } else {
-      return false;
-    }
-  }
-  return true;
+  return take_options(count, arguments,
+                      {{"-o", &options.file},
+                       {"--seed", &options.seed},
+                       {"--instances", &options.instances},
+                       {"--peer-instances", &options.peer_instances},
+                       {"--plots", &options.plots}},
+                      [&options] {
+                        options.instances = 3;
+                        options.peer_instances = 2;
+                        options.points = {2, 4};
+                        options.batches = 1;
+                        options.peers = false;
+                      }) &&
+         (options.plots.empty() || std::filesystem::is_directory(options.plots));
 }
 
 int run(int count, char** arguments) {

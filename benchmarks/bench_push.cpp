@@ -7,12 +7,12 @@
 /// compared too; `status` and `reference_status` say where they part.
 /// Usage: bench_push [--quick] [--pushes N] [--seed S] [-o FILE]
 #include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "benchmarks/csv_file.h"
 #include "benchmarks/measure.h"
+#include "benchmarks/options.h"
 #include "primitives/transition.h"
 #include "problems/random_pushes.h"
 
@@ -159,35 +159,14 @@ void write_summary(const std::vector<Run>& runs, std::FILE* out) {
   }
 }
 
-bool read_number(const char* text, long long& value) {
-  char* end = nullptr;
-  value = std::strtoll(text, &end, 10);
-  return end != text && *end == '\0' && value >= 0;
-}
-
 bool read_options(int count, char** arguments, Options& options) {
-  for (int i = 1; i < count; ++i) {
-    const std::string option = arguments[i];
-    if (option == "--quick") {
-      options.pushes = 20;
-      options.batches = 1;
-      continue;
-    }
-    if (i + 1 == count) return false;
-    const char* value = arguments[++i];
-    long long number = 0;
-    const bool is_number = read_number(value, number);
-    if (option == "-o") {
-      options.file = value;
-    } else if (is_number && option == "--pushes") {
-      options.pushes = static_cast<int>(number);
-    } else if (is_number && option == "--seed") {
-      options.seed = static_cast<std::uint64_t>(number);
-    } else {
-      return false;
-    }
-  }
-  return true;
+  return take_options(
+      count, arguments,
+      {{"-o", &options.file}, {"--pushes", &options.pushes}, {"--seed", &options.seed}},
+      [&options] {
+        options.pushes = 20;
+        options.batches = 1;
+      });
 }
 
 int run(int count, char** arguments) {

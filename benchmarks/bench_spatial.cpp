@@ -14,13 +14,13 @@
 ///        --peers-every N: the slow solvers get every N-th instance only
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "benchmarks/csv_file.h"
 #include "benchmarks/measure.h"
+#include "benchmarks/options.h"
 #include "benchmarks/spatial_runs.h"
 
 namespace prehensile::benchmarks {
@@ -121,48 +121,19 @@ void write_summary(const std::vector<SpatialRun>& runs, std::FILE* out) {
   }
 }
 
-void make_quick(Options& options) {
-  options.instances = 3;
-  options.points = {2, 4};
-  options.generators = {8};
-  options.peers = false;
-  options.batches = 1;
-}
-
-/// False for an option that is not known or has no value.
-bool read_option(const std::string& option, const char* value, Options& options) {
-  if (!value) return false;
-  if (option == "-o") {
-    options.file = value;
-    return true;
-  }
-  char* end = nullptr;
-  const long long number = std::strtoll(value, &end, 10);
-  if (end == value || *end != '\0' || number < 0) return false;
-  if (option == "--seed") {
-    options.seed = static_cast<std::uint64_t>(number);
-  } else if (option == "--instances") {
-    options.instances = static_cast<int>(number);
-  } else if (option == "--peers-every" && number > 0) {
-    options.peer_share = static_cast<int>(number);
-  } else {
-    return false;
-  }
-  return true;
-}
-
 bool read_options(int count, char** arguments, Options& options) {
-  for (int i = 1; i < count; ++i) {
-    const std::string option = arguments[i];
-    if (option == "--quick") {
-      make_quick(options);
-      continue;
-    }
-    if (!read_option(option, i + 1 < count ? arguments[++i] : nullptr, options)) {
-      return false;
-    }
-  }
-  return true;
+  return take_options(count, arguments,
+                      {{"-o", &options.file},
+                       {"--seed", &options.seed},
+                       {"--instances", &options.instances},
+                       {"--peers-every", &options.peer_share, 1}},
+                      [&options] {
+                        options.instances = 3;
+                        options.points = {2, 4};
+                        options.generators = {8};
+                        options.peers = false;
+                        options.batches = 1;
+                      });
 }
 
 int run(int count, char** arguments) {

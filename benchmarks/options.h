@@ -6,7 +6,6 @@
 #include <cstring>
 #include <initializer_list>
 #include <string>
-#include <type_traits>
 #include <variant>
 
 namespace prehensile::benchmarks {
@@ -20,22 +19,26 @@ struct Option {
 };
 
 inline bool set_option(const Option& option, const char* value) {
-  return std::visit(
-      [&](auto* into) {
-        using T = std::remove_pointer_t<decltype(into)>;
-        if constexpr (std::is_integral_v<T>) {
-          constexpr long long kMost = 1'000'000'000;
-          char* end = nullptr;
-          const long long number = std::strtoll(value, &end, 10);
-          if (end == value || *end != '\0') return false;
-          if (number < option.least || number > kMost) return false;
-          *into = static_cast<T>(number);
-        } else {
-          *into = value;
-        }
-        return true;
-      },
-      option.into);
+  if (auto* const* text = std::get_if<const char**>(&option.into)) {
+    **text = value;
+    return true;
+  }
+  if (auto* const* text = std::get_if<std::string*>(&option.into)) {
+    **text = value;
+    return true;
+  }
+  constexpr long long kMost = 1'000'000'000;
+  char* end = nullptr;
+  const long long number = std::strtoll(value, &end, 10);
+  if (end == value || *end != '\0' || number < option.least || number > kMost) {
+    return false;
+  }
+  if (auto* const* whole = std::get_if<int*>(&option.into)) {
+    **whole = static_cast<int>(number);
+  } else if (auto* const* seed = std::get_if<std::uint64_t*>(&option.into)) {
+    **seed = static_cast<std::uint64_t>(number);
+  }
+  return true;
 }
 
 /// Sets what the arguments say, in their order; --quick calls `make_quick`. False for an

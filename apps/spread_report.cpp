@@ -17,15 +17,9 @@ constexpr std::array<const char*, kDeviations> kKeys = {"normal", "tangential", 
 
 double shown(int part, double value) { return part == 2 ? to_deg(value) : to_mm(value); }
 
-struct Quantiles {
-  double low, middle, high;
-};
-
-Quantiles quantiles(const Ensemble& ensemble, int part, double level) {
-  const std::vector<double> values =
-      ensemble.sorted(&EnsembleMember::end, kDeviationParts[part]);
-  return {quantile(values, 0.5 - 0.5 * level), quantile(values, 0.5),
-          quantile(values, 0.5 + 0.5 * level)};
+SpreadQuantiles quantiles(const Ensemble& ensemble, int part, double level) {
+  return spread_quantiles(ensemble.sorted(&EnsembleMember::end, kDeviationParts[part]),
+                          level);
 }
 
 std::string range_text(int part, double low, double high) {
@@ -38,7 +32,7 @@ nlohmann::ordered_json ensemble_json(const SpreadReport& report, const Ensemble&
                                 {"samples", ensemble.members.size()},
                                 {"completed", ensemble.completed()}};
   for (int part = 0; part < kDeviations; ++part) {
-    const Quantiles q = quantiles(ensemble, part, report.level);
+    const SpreadQuantiles q = quantiles(ensemble, part, report.level);
     out[kKeys[part]] = {
         {"low", number(q.low)}, {"median", number(q.middle)}, {"high", number(q.high)}};
   }
@@ -85,11 +79,8 @@ double SpreadReport::floor(int part) const {
                                   : std::hypot(motion.normal, motion.tangential));
 }
 
-SpreadReport::Interval SpreadReport::interval(int part) const {
-  const Quantiles q = quantiles(from_both, part, level);
-  const double ground = floor(part);
-  return {q.middle - factor[part] * std::hypot(q.middle - q.low, ground),
-          q.middle + factor[part] * std::hypot(q.high - q.middle, ground)};
+SpreadInterval SpreadReport::interval(int part) const {
+  return stated_interval(quantiles(from_both, part, level), floor(part), factor[part]);
 }
 
 std::string describe(const SpreadReport& report) {
@@ -109,10 +100,10 @@ std::string describe(const SpreadReport& report) {
   Table table({"", "friction and pressure", "registration", "both", "floor ±", "factor",
                "stated interval"});
   for (int part = 0; part < kDeviations; ++part) {
-    const Quantiles a = quantiles(report.from_mechanics, part, report.level);
-    const Quantiles b = quantiles(report.from_registration, part, report.level);
-    const Quantiles c = quantiles(joint, part, report.level);
-    const SpreadReport::Interval stated = report.interval(part);
+    const SpreadQuantiles a = quantiles(report.from_mechanics, part, report.level);
+    const SpreadQuantiles b = quantiles(report.from_registration, part, report.level);
+    const SpreadQuantiles c = quantiles(joint, part, report.level);
+    const SpreadInterval stated = report.interval(part);
     table.add(
         {kNames[part], range_text(part, a.low, a.high), range_text(part, b.low, b.high),
          range_text(part, c.low, c.high), text("%.3f", shown(part, report.floor(part))),
@@ -147,7 +138,7 @@ nlohmann::ordered_json to_json(const SpreadReport& report) {
       {"factor", {{"source", report.factor_source}}},
       {"interval", nlohmann::ordered_json::object()}};
   for (int part = 0; part < kDeviations; ++part) {
-    const SpreadReport::Interval stated = report.interval(part);
+    const SpreadInterval stated = report.interval(part);
     out["floor"][kKeys[part]] = number(report.floor(part));
     out["factor"][kKeys[part]] = number(report.factor[part]);
     out["interval"][kKeys[part]] = {{"low", number(stated.low)},
@@ -177,8 +168,8 @@ std::string to_svg(const SpreadReport& report) {
   plot::Chart ends{.title = "Where the push ends", .subtitle = report.question};
   ends.x.label = "along the normal, against nominal [mm]";
   ends.y.label = "along the face, against nominal [mm]";
-  const SpreadReport::Interval x = report.interval(0);
-  const SpreadReport::Interval y = report.interval(1);
+  const SpreadInterval x = report.interval(0);
+  const SpreadInterval y = report.interval(1);
   ends.series = {
       places(report.from_both, "both", plot::Colour::kSky, plot::Mark::kCircle, 3.5),
       places(report.from_registration, "registration", plot::Colour::kOrange,
@@ -196,7 +187,7 @@ std::string to_svg(const SpreadReport& report) {
   angles.x.label = "angle, against nominal [deg]";
   angles.y.label = "share of pushes";
   angles.y.from_zero = true;
-  const SpreadReport::Interval angle = report.interval(2);
+  const SpreadInterval angle = report.interval(2);
   angles.series = {
       distribution(report.from_both, "both", plot::Colour::kSky),
       distribution(report.from_registration, "registration", plot::Colour::kOrange),

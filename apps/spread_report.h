@@ -22,11 +22,7 @@ struct SpreadReport {
 
   /// The stated interval of a coordinate: quantiles of both boxes together, the floor in
   /// quadrature, times the factor, about the median.
-  struct Interval {
-    double low = kNan;
-    double high = kNan;
-  };
-  Interval interval(int part) const;
+  SpreadInterval interval(int part) const;
   double floor(int part) const;
 };
 

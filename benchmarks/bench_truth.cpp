@@ -56,27 +56,6 @@ void run_pins(const TruthOptions& options, std::FILE* csv) {
               kPinFriction, failures);
 }
 
-/// The offset of each push's recording, estimated from the recording's other half.
-std::vector<Vec2> offsets_of_other_half(const TipPushes& data) {
-  std::map<std::string, std::array<std::vector<const TipPush*>, 2>> halves;
-  std::map<std::string, std::size_t> seen;
-  std::vector<std::size_t> half_of(data.pushes.size());
-  for (std::size_t i = 0; i < data.pushes.size(); ++i) {
-    const TipPush& push = data.pushes[i];
-    half_of[i] = seen[push.recording]++ % 2;
-    halves[push.recording][half_of[i]].push_back(&push);
-  }
-  std::map<std::string, std::array<Vec2, 2>> offsets;
-  for (const auto& [recording, half] : halves) {
-    offsets[recording] = {tip_offset(data, half[1]), tip_offset(data, half[0])};
-  }
-  std::vector<Vec2> result;
-  for (std::size_t i = 0; i < data.pushes.size(); ++i) {
-    result.push_back(offsets[data.pushes[i].recording][half_of[i]]);
-  }
-  return result;
-}
-
 void run_mcube(const TruthOptions& options, std::FILE* csv) {
   const TipPushes data = select_mcube(options).data;
   const Tips raw{.count = 1, .radius = kMcubeTipRadius, .mu = kMcubeFriction};

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -74,8 +75,14 @@ McubeFit fit_recording(const McubePushes& mcube, const std::vector<int>& rows) {
   const double t = student_quantile(0.95, std::max(3, problem.rows - 2));
   const double d_friction = t * std::sqrt(spread.by_scatter(0, 0));
   const double d_load = t * std::sqrt(spread.by_scatter(1, 1));
-  out.friction_range = {out.friction - d_friction, out.friction + d_friction};
-  out.edge_load_range = {out.edge_load - d_load, out.edge_load + d_load};
+  const auto within = [&](int j, double value) {
+    const FitParameter& p = problem.parameters[static_cast<std::size_t>(j)];
+    return std::clamp(value, p.low, p.high);
+  };
+  out.friction_range = {within(0, out.friction - d_friction),
+                        within(0, out.friction + d_friction)};
+  out.edge_load_range = {within(1, out.edge_load - d_load),
+                         within(1, out.edge_load + d_load)};
   return out;
 }
 

@@ -18,8 +18,11 @@ constexpr std::array<double, 2> kLevels = {0.5, 0.9};
 /// has its unknowns.
 constexpr double kFrictionShare = 0.25;
 constexpr double kTorqueShare = 0.25;
-constexpr double kPlace = 1e-3;      // [m] of the tip, and of the pressure's centre
-constexpr double kAngle = 5.236e-3;  // [rad] of the plate
+/// [m] of a tip as it is given, and of one whose place was estimated.
+constexpr double kRawPlace = 1e-3;
+constexpr double kRegisteredPlace = 3e-4;
+constexpr double kPressureCentre = 3e-3;  // [m] 8 % of the torque radius
+constexpr double kAngle = 5.236e-3;       // [rad] of the plate
 constexpr double kFloorShare = 0.07;
 /// What the data's own cameras scatter: part of the floor here, not of the product's.
 constexpr double kMeasured = 3e-4;       // [m]
@@ -52,15 +55,17 @@ std::array<double, kParts> parts_of(const PlanarPose& end, const PlanarPose& nom
   return {off.dot(n), off.dot(perp(n)), wrapped(end.theta - nominal.theta)};
 }
 
-Row row_of(const TipPushes& data, const TipPush& push, int index, int samples) {
+/// `offset` [m] of the tip, uncertain by `place`.
+Row row_of(const TipPushes& data, const TipPush& push, const Vec2& offset, double place,
+           int index, int samples) {
   const Plate& plate = data.plates[push.plate];
   Row row;
   row.shape = push.recording.substr(push.recording.rfind(' ') + 1);
   Tips tips{.count = 1, .radius = kMcubeTipRadius, .mu = kMcubeFrictionRegistered};
   int failures = 0;
-  const auto end_of = [&](const Plate& other, const TipPush& same, const Vec2& offset) {
-    return predicted_end(other, same, SupportModel::kEllipsoid, tips, offset, failures,
-                         5e-4);
+  const auto end_of = [&](const Plate& other, const TipPush& same, const Vec2& off) {
+    return predicted_end(other, same, SupportModel::kEllipsoid, tips, offset + off,
+                         failures, 5e-4);
   };
   const PlanarPose nominal = end_of(plate, push, Vec2::Zero());
   const Vec2 n = first_normal(plate, push);
@@ -78,11 +83,12 @@ Row row_of(const TipPushes& data, const TipPush& push, int index, int samples) {
     Plate other = plate;
     const Vec2 centre = plate.centre();
     for (Vec2& p : other.support) {
-      p = centre + (1.0 + kTorqueShare * u[1]) * (p - centre) + kPlace * Vec2(u[2], u[3]);
+      p = centre + (1.0 + kTorqueShare * u[1]) * (p - centre) +
+          kPressureCentre * Vec2(u[2], u[3]);
     }
     TipPush turned_push = push;
     turned_push.X_WO_start.theta += kAngle * u[4];
-    PlanarPose end = end_of(other, turned_push, kPlace * Vec2(u[5], u[6]));
+    PlanarPose end = end_of(other, turned_push, place * Vec2(u[5], u[6]));
     end.theta -= kAngle * u[4];
     const std::array<double, kParts> off = parts_of(end, nominal, n);
     for (int part = 0; part < kParts; ++part) sorted[part].push_back(off[part]);
@@ -144,7 +150,7 @@ bool any(const std::string&) { return true; }
 void print_bare(const std::vector<Row>& rows, std::size_t level) {
   for (const bool with_floor : {false, true}) {
     const Coverage bare = coverage_of(rows, level, {1.0, 1.0, 1.0}, with_floor, any);
-    std::printf("%-44s %3.0f %%   %.3f %.3f %.3f\n",
+    std::printf("%-42s %3.0f %%   %.3f %.3f %.3f\n",
                 with_floor ? "box and floor" : "bare box", 100.0 * kLevels[level],
                 bare[0], bare[1], bare[2]);
   }
@@ -162,7 +168,7 @@ void print_split(const std::vector<Row>& rows, std::size_t level,
   const Coverage covered = coverage_of(rows, level, factors, true, is_new, &widths);
   std::string names = "learnt on";
   for (const std::string& shape : learnt) names += ' ' + shape;
-  std::printf("%-44s %3.0f %%   %.3f %.3f %.3f   %.2f %.2f %.2f   %.1f %.1f %.1f\n",
+  std::printf("%-42s %3.0f %%   %.3f %.3f %.3f   %.2f %.2f %.2f   %.1f %.1f %.1f\n",
               names.c_str(), 100.0 * kLevels[level], covered[0], covered[1], covered[2],
               factors[0], factors[1], factors[2], 1e3 * widths[0], 1e3 * widths[1],
               kDegPerRad * widths[2]);
@@ -191,7 +197,7 @@ void print_all_splits(const std::vector<Row>& rows, std::size_t level,
     }
     ++splits;
   }
-  std::printf("%-44s %3.0f %%   %.3f..%.3f %.3f..%.3f %.3f..%.3f\n",
+  std::printf("%-42s %3.0f %%   %.3f..%.3f %.3f..%.3f %.3f..%.3f\n",
               ("all " + std::to_string(splits) + " halves of the shapes").c_str(),
               100.0 * kLevels[level], least[0], most[0], least[1], most[1], least[2],
               most[2]);
@@ -205,52 +211,62 @@ void print_per_shape(const std::vector<Row>& rows,
         factors_of(rows, 1, [&](const std::string& other) { return other != shape; });
     const Coverage covered = coverage_of(
         rows, 1, factors, true, [&](const std::string& other) { return other == shape; });
-    std::printf("%-44s         %.3f %.3f %.3f\n", shape.c_str(), covered[0], covered[1],
+    std::printf("%-42s         %.3f %.3f %.3f\n", shape.c_str(), covered[0], covered[1],
                 covered[2]);
   }
 }
 
-}  // namespace
-
-void run_mcube_intervals(const TruthOptions& options, std::FILE* csv) {
-  const McubePushes mcube = select_mcube(options);
+void run_tips(const TruthOptions& options, const McubePushes& mcube, bool registered,
+              std::FILE* csv) {
+  const TipPushes& data = mcube.data;
+  std::vector<Vec2> offsets(data.pushes.size(), Vec2::Zero());
+  if (registered) offsets = offsets_of_other_half(data);
+  const double place = registered ? kRegisteredPlace : kRawPlace;
+  const char* tips = registered ? "registered" : "raw";
   std::vector<Row> rows;
   std::vector<std::string> shapes;
-  for (std::size_t i = 0; i < mcube.data.pushes.size(); ++i) {
-    rows.push_back(
-        row_of(mcube.data, mcube.data.pushes[i], static_cast<int>(i), options.samples));
+  for (std::size_t i = 0; i < data.pushes.size(); ++i) {
+    rows.push_back(row_of(data, data.pushes[i], offsets[i], place, static_cast<int>(i),
+                          options.samples));
     const std::string& shape = rows.back().shape;
     if (std::find(shapes.begin(), shapes.end(), shape) == shapes.end()) {
       shapes.push_back(shape);
     }
     if (!csv) continue;
-    std::fprintf(csv, "mcube_push intervals,%s,%zu,ellipsoid raw,%.6f,%.6f\n",
-                 mcube.data.pushes[i].recording.c_str(), i,
+    std::fprintf(csv, "mcube_push intervals,%s,%zu,ellipsoid %s,%.6f,%.6f\n",
+                 data.pushes[i].recording.c_str(), i, tips,
                  1e3 * std::hypot(rows.back().off[0], rows.back().off[1]),
                  kDegPerRad * std::abs(rows.back().off[2]));
   }
   std::sort(shapes.begin(), shapes.end());
   std::printf(
-      "\nmcube_push: share of %zu measured ends inside stated intervals (normal, "
-      "tangential, angle)\n%-44s level   covered             factors          mean "
-      "width mm mm deg\n",
-      rows.size(), "");
+      "\nmcube_push, %s tips: share of %zu measured ends inside stated intervals\n"
+      "(normal, tangential, angle; mean widths in mm, mm, deg)\n"
+      "%-40s  level   covered             factors          widths\n",
+      tips, rows.size(), "");
   for (std::size_t level = 0; level < kLevels.size(); ++level) {
     print_bare(rows, level);
     print_split(rows, level, {"rect1", "ellip1", "hex"});
     print_split(rows, level, {"rect3", "ellip3", "tri2"});
     print_all_splits(rows, level, shapes);
     const Factors all = factors_of(rows, level, any);
-    std::printf("%-44s %3.0f %%                       %.2f %.2f %.2f\n",
+    std::printf("%-42s %3.0f %%                       %.2f %.2f %.2f\n",
                 "factors of all shapes", 100.0 * kLevels[level], all[0], all[1], all[2]);
   }
   print_per_shape(rows, shapes);
   std::printf(
-      "box: friction %.2f +-%.0f %%, torque radius +-%.0f %%, tip and pressure centre "
-      "+-%.0f mm, angle +-0.3 deg, %d samples;\nfloor: %.0f %% of the motion and the "
-      "data's own scatter, 0.3 mm and 0.3 deg; raw tips\n",
-      kMcubeFrictionRegistered, 100.0 * kFrictionShare, 100.0 * kTorqueShare,
-      1e3 * kPlace, options.samples, 100.0 * kFloorShare);
+      "box: friction %.2f +-%.0f %%, torque radius +-%.0f %%, tip +-%.1f mm, pressure "
+      "centre +-%.0f mm, angle +-0.3 deg, %d samples;\n"
+      "floor: %.0f %% of the motion and the data's own scatter, 0.3 mm and 0.3 deg\n",
+      kMcubeFrictionRegistered, 100.0 * kFrictionShare, 100.0 * kTorqueShare, 1e3 * place,
+      1e3 * kPressureCentre, options.samples, 100.0 * kFloorShare);
+}
+
+}  // namespace
+
+void run_mcube_intervals(const TruthOptions& options, std::FILE* csv) {
+  const McubePushes mcube = select_mcube(options);
+  for (const bool registered : {false, true}) run_tips(options, mcube, registered, csv);
 }
 
 }  // namespace prehensile::benchmarks

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -102,6 +103,26 @@ Vec2 tip_offset(const TipPushes& data, const std::vector<const TipPush*>& pushes
     fit = A.ldlt().solve(b);
   }
   return fit.tail<2>();
+}
+
+std::vector<Vec2> offsets_of_other_half(const TipPushes& data) {
+  std::map<std::string, std::array<std::vector<const TipPush*>, 2>> halves;
+  std::map<std::string, std::size_t> seen;
+  std::vector<std::size_t> half_of(data.pushes.size());
+  for (std::size_t i = 0; i < data.pushes.size(); ++i) {
+    const TipPush& push = data.pushes[i];
+    half_of[i] = seen[push.recording]++ % 2;
+    halves[push.recording][half_of[i]].push_back(&push);
+  }
+  std::map<std::string, std::array<Vec2, 2>> offsets;
+  for (const auto& [recording, half] : halves) {
+    offsets[recording] = {tip_offset(data, half[1]), tip_offset(data, half[0])};
+  }
+  std::vector<Vec2> result;
+  for (std::size_t i = 0; i < data.pushes.size(); ++i) {
+    result.push_back(offsets[data.pushes[i].recording][half_of[i]]);
+  }
+  return result;
 }
 
 }  // namespace prehensile::benchmarks

@@ -46,6 +46,9 @@ PlanarPose predicted_end(const Plate& plate, const TipPush& push, SupportModel m
 /// there the measured distance of tip and outline is the tip radius. Kinematics alone.
 Vec2 tip_offset(const TipPushes& data, const std::vector<const TipPush*>& pushes);
 
+/// The offset of each push's recording, estimated from the recording's other half.
+std::vector<Vec2> offsets_of_other_half(const TipPushes& data);
+
 /// Friction and radial pressure of each recording fitted on the even contact positions,
 /// tested on the odd ones; then the other way round.
 void run_mcube_calibrated(const TruthOptions& options, std::FILE* csv);

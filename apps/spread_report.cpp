@@ -22,6 +22,13 @@ SpreadQuantiles quantiles(const Ensemble& ensemble, int part, double level) {
                           level);
 }
 
+/// A share of real pushes is stated only where a factor was learnt on some.
+std::string interval_name(const SpreadReport& report) {
+  return report.has_factor
+             ? text("stated %g %%", 100.0 * report.level)
+             : text("%g %% of the box, without a factor", 100.0 * report.level);
+}
+
 std::string range_text(int part, double low, double high) {
   return text("%+.3f to %+.3f", shown(part, low), shown(part, high));
 }
@@ -94,11 +101,12 @@ std::string describe(const SpreadReport& report) {
   if (!joint.nominal.reason.empty()) out += std::string(joint.nominal.reason) + '\n';
   out += text("of %zu pushes of the whole box: ", joint.members.size()) + joint.tally() +
          text(
-             "\ndeviation of the end pose from the nominal one, %g %% of the completed "
-             "pushes:\n",
+             "\ndeviation of the end pose from the nominal one; the columns before the "
+             "factor hold %g %% of the\npushes of their box, which is not the share of "
+             "real pushes: that is what the factor is for\n",
              100.0 * report.level);
   Table table({"", "friction and pressure", "registration", "both", "floor ±", "factor",
-               "stated interval"});
+               interval_name(report)});
   for (int part = 0; part < kDeviations; ++part) {
     const SpreadQuantiles a = quantiles(report.from_mechanics, part, report.level);
     const SpreadQuantiles b = quantiles(report.from_registration, part, report.level);
@@ -112,6 +120,7 @@ std::string describe(const SpreadReport& report) {
   out += table.str();
   out += "spread from friction and pressure: " + box_text(report.mechanics) + '\n';
   out += "registration: " + box_text(report.registration) + '\n';
+  out += "these boxes: " + report.box_source + '\n';
   out += text("floor: %g %% of the motion, friction from spot to spot\n",
               100.0 * report.floor_share);
   return out + "factor: " + report.factor_source + '\n';
@@ -123,6 +132,7 @@ nlohmann::ordered_json to_json(const SpreadReport& report) {
   nlohmann::ordered_json out = {
       {"question", report.question},
       {"level", number(report.level)},
+      {"boxes", report.box_source},
       {"nominal",
        {{"status", std::string(name(joint.nominal.status))},
         {"reason", std::string(joint.nominal.reason)},
@@ -176,7 +186,7 @@ std::string to_svg(const SpreadReport& report) {
              plot::Mark::kSquare, 1.8),
       places(report.from_mechanics, "friction and pressure", plot::Colour::kBlue,
              plot::Mark::kDiamond, 2.2),
-      plot::Region{.label = text("stated %g %% of each", 100.0 * report.level),
+      plot::Region{.label = interval_name(report) + " of each",
                    .points = {{to_mm(x.low), to_mm(y.low)},
                               {to_mm(x.high), to_mm(y.low)},
                               {to_mm(x.high), to_mm(y.high)},
@@ -192,7 +202,7 @@ std::string to_svg(const SpreadReport& report) {
       distribution(report.from_both, "both", plot::Colour::kSky),
       distribution(report.from_registration, "registration", plot::Colour::kOrange),
       distribution(report.from_mechanics, "friction and pressure", plot::Colour::kBlue),
-      plot::Rule{.label = text("stated %g %%", 100.0 * report.level),
+      plot::Rule{.label = interval_name(report),
                  .value = to_deg(angle.low),
                  .vertical = true,
                  .colour = plot::Colour::kRed},

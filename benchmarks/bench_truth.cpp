@@ -197,6 +197,7 @@ void run(const TruthOptions& options, std::FILE* csv) {
   for (const Part& part : {Part{"pin_push", "pin_push", run_pins},
                            Part{"mcube_push", "mcube_push", run_mcube},
                            Part{"calibrated", "mcube_push", run_mcube_calibrated},
+                           Part{"few", "mcube_push", run_mcube_few},
                            Part{"intervals", "mcube_push", run_mcube_intervals},
                            Part{"line_push", "line_push", run_lines}}) {
     if (!options.set.empty() && options.set != part.name) continue;
@@ -210,21 +211,22 @@ void run(const TruthOptions& options, std::FILE* csv) {
 }
 
 int usage(std::FILE* out) {
-  std::fprintf(out,
-               "usage: bench_truth DATA [--set pin_push|mcube_push|calibrated|intervals|"
-               "line_push]\n"
-               "  [--recording TEXT] [--every N] [--points N] [--samples N] [--quick] "
-               "[-o FILE]\n"
-               "DATA: a folder with the sets (docs/benchmarks.md says where from)\n"
-               "--recording: only recordings whose name holds the text; --every: one of "
-               "N pushes,\nof mcube_push one of N pairs of contact positions; --quick: "
-               "every 8, 20 samples\n");
+  std::fprintf(
+      out,
+      "usage: bench_truth DATA [--set pin_push|mcube_push|calibrated|few|intervals|"
+      "line_push]\n"
+      "  [--recording TEXT] [--every N] [--points N] [--samples N] [--quick] "
+      "[-o FILE]\n"
+      "DATA: a folder with the sets (docs/benchmarks.md says where from)\n"
+      "--recording: only recordings whose name holds the text; --every: one of "
+      "N pushes,\nof mcube_push one of N pairs of contact positions; --quick: "
+      "every 8, 20 samples\n");
   return out == stdout ? 0 : 2;
 }
 
 bool is_set(const std::string& name) {
   for (const char* known :
-       {"", "pin_push", "mcube_push", "calibrated", "intervals", "line_push"}) {
+       {"", "pin_push", "mcube_push", "calibrated", "few", "intervals", "line_push"}) {
     if (name == known) return true;
   }
   return false;

@@ -4,7 +4,8 @@
 
 #include "benchmarks/truth_runs.h"
 #include "benchmarks/truth_scores.h"
-#include "primitives/robust_fit.h"
+#include "primitives/calibration.h"
+#include "primitives/uncertainty.h"
 
 namespace prehensile::benchmarks {
 namespace {
@@ -19,9 +20,10 @@ struct McubeFit {
   std::array<double, 2> friction_range{}, edge_load_range{};
 };
 
-/// Measured minus predicted along the push, across it, and in angle.
+/// Measured minus predicted along the push, across it, and in angle. `step` [m] of the
+/// simulated pushes; `registers`: the place of the tip is fitted too, about `offset`.
 FitProblem problem_of(const McubePushes& mcube, const std::vector<int>& rows,
-                      const Vec2& offset) {
+                      const Vec2& offset, double step, bool registers) {
   FitProblem problem;
   problem.parameters = {{.name = "friction",
                          .start = kMcubeFrictionRegistered,
@@ -36,19 +38,30 @@ FitProblem problem_of(const McubePushes& mcube, const std::vector<int>& rows,
                          .step = 0.1,
                          .known = 1.0,
                          .tries = {-0.6, 0.6, 1.5}}};
+  if (registers) {
+    for (const char* name : {"tip x", "tip y"}) {
+      problem.parameters.push_back({.name = name,
+                                    .start = 0.0,
+                                    .low = -5e-3,
+                                    .high = 5e-3,
+                                    .step = 2e-4,
+                                    .known = 1.5e-3});
+    }
+  }
   problem.rows = static_cast<int>(rows.size());
   problem.resolution = {1e-4, 1e-4, 2e-3};
-  problem.residuals = [&mcube, &rows, offset](const Eigen::VectorXd& at,
-                                              std::span<const int> which,
-                                              Eigen::MatrixXd& out) {
+  problem.residuals = [&mcube, &rows, offset, step, registers](const Eigen::VectorXd& at,
+                                                               std::span<const int> which,
+                                                               Eigen::MatrixXd& out) {
     const TipPush& first = mcube.data.pushes[rows[0]];
     const Plate plate = loaded_plate(mcube.data.plates[first.plate], at[1]);
     const Tips tips{.count = 1, .radius = kMcubeTipRadius, .mu = at[0]};
+    const Vec2 off_tip = registers ? Vec2(offset + at.tail<2>()) : offset;
     for (std::size_t i = 0; i < which.size(); ++i) {
       const TipPush& push = mcube.data.pushes[rows[which[i]]];
       int failures = 0;
       const PlanarPose end = predicted_end(plate, push, SupportModel::kPoints, tips,
-                                           offset, failures, kFitStep);
+                                           off_tip, failures, step);
       const Vec2 along = (push.path.back()[0] - push.path.front()[0]).normalized();
       const Vec2 off = translation(push.X_WO_end) - translation(end);
       out.col(static_cast<Eigen::Index>(i)) << off.dot(along), off.dot(perp(along)),
@@ -67,7 +80,7 @@ McubeFit fit_recording(const McubePushes& mcube, const std::vector<int>& rows) {
     pushes.push_back(&mcube.data.pushes[row]);
   }
   out.offset = tip_offset(mcube.data, pushes);
-  const FitProblem problem = problem_of(mcube, rows, out.offset);
+  const FitProblem problem = problem_of(mcube, rows, out.offset, kFitStep, false);
   const Fit best = fit(problem, all, start_of(problem), {});
   const FitCovariance spread = covariance(problem, all, best, {});
   out.friction = best.at[0];
@@ -138,6 +151,52 @@ void run_half(const McubePushes& mcube, int fitted_parity, Scores& scores,
   }
 }
 
+/// Errors on one of four pushes of the odd positions, with what `count` pushes of the
+/// even ones told; those are drawn at random, in the order of random_point.
+struct FewErrors {
+  Errors before, after, quartic;
+  int told = 0;
+};
+
+void add_few(const McubePushes& mcube, const std::string& recording, std::size_t count,
+             FewErrors& errors) {
+  constexpr double kCoarseStep = 1e-3;
+  std::vector<std::pair<double, int>> drawn;
+  std::vector<int> tested;
+  for (int i = 0; i < static_cast<int>(mcube.data.pushes.size()); ++i) {
+    if (mcube.data.pushes[i].recording != recording) continue;
+    if (mcube.position[i] % 2 == 0) {
+      drawn.emplace_back(random_point(1, static_cast<std::uint64_t>(i))[0], i);
+    } else if (i % 4 == 0) {
+      tested.push_back(i);
+    }
+  }
+  if (drawn.size() < count) return;
+  std::sort(drawn.begin(), drawn.end());
+  std::vector<int> rows;
+  for (std::size_t i = 0; i < count; ++i) rows.push_back(drawn[i].second);
+  const FitProblem problem = problem_of(mcube, rows, Vec2::Zero(), kCoarseStep, true);
+  const Calibration found = calibrate(problem, {.folds = 2});
+  errors.told += found.told();
+  const Eigen::VectorXd& at = found.fit.at;
+  const Plate& uniform = mcube.data.plates[mcube.data.pushes[rows[0]].plate];
+  const Plate plate = loaded_plate(uniform, at[1]);
+  Tips tips{.count = 1, .radius = kMcubeTipRadius, .mu = kMcubeFrictionRegistered};
+  int failures = 0;
+  for (const int i : tested) {
+    const TipPush& push = mcube.data.pushes[i];
+    tips.mu = kMcubeFrictionRegistered;
+    errors.before.add(
+        predicted_end(uniform, push, SupportModel::kPoints, tips, Vec2::Zero(), failures),
+        push.X_WO_end);
+    tips.mu = at[0];
+    errors.after.add(
+        predicted_end(plate, push, SupportModel::kPoints, tips, at.tail<2>(), failures),
+        push.X_WO_end);
+    errors.quartic.add(push.published[1], push.X_WO_end);
+  }
+}
+
 }  // namespace
 
 void run_mcube_calibrated(const TruthOptions& options, std::FILE* csv) {
@@ -158,6 +217,34 @@ void run_mcube_calibrated(const TruthOptions& options, std::FILE* csv) {
         "their authors to these recordings; %d steps unsolved\n",
         kMcubeFriction, failures);
   }
+}
+
+void run_mcube_few(const TruthOptions& options, std::FILE* csv) {
+  const McubePushes mcube = select_mcube(options);
+  std::printf(
+      "\nmcube_push: friction, edge load and place of the tip from few pushes of each "
+      "recording,\ntested on others; mean mm / deg\n%6s %8s %16s %16s %16s %18s\n",
+      "pushes", "tested", "before", "calibrated", "quartic", "told, of 4 each");
+  for (const std::size_t count : {6U, 10U, 20U, 50U}) {
+    FewErrors errors;
+    for (const std::string& recording : mcube.recordings) {
+      add_few(mcube, recording, count, errors);
+    }
+    const auto show = [](const Errors& of) {
+      std::printf("   %5.2f / %5.2f", mean(of.distance_mm), mean(of.angle_deg));
+    };
+    if (errors.after.distance_mm.empty()) continue;
+    std::printf("%6zu %8zu", count, errors.after.distance_mm.size());
+    for (const Errors* of : {&errors.before, &errors.after, &errors.quartic}) show(*of);
+    std::printf(" %12.1f\n", static_cast<double>(errors.told) /
+                                 static_cast<double>(mcube.recordings.size()));
+    if (csv) {
+      std::fprintf(csv, "mcube_push few,all,%zu,points calibrated,%.6f,%.6f\n", count,
+                   mean(errors.after.distance_mm), mean(errors.after.angle_deg));
+    }
+  }
+  std::printf("before: friction %.2f, uniform pressure, raw tips\n",
+              kMcubeFrictionRegistered);
 }
 
 }  // namespace prehensile::benchmarks

@@ -12,7 +12,7 @@ namespace prehensile::benchmarks {
 
 struct TruthOptions {
   std::filesystem::path data;
-  std::string set;        ///< a set, or "calibrated" or "intervals"; empty: all
+  std::string set;        ///< a set, or "calibrated", "few", "intervals"; empty: all
   std::string recording;  ///< only those whose name holds this text
   int points = 48;        ///< of a plate that lies flat
   int every = 1;          ///< one of so many contact positions, or pushes
@@ -52,6 +52,9 @@ std::vector<Vec2> offsets_of_other_half(const TipPushes& data);
 /// Friction and radial pressure of each recording fitted on the even contact positions,
 /// tested on the odd ones; then the other way round.
 void run_mcube_calibrated(const TruthOptions& options, std::FILE* csv);
+
+/// The same from 6 to 50 pushes of each recording.
+void run_mcube_few(const TruthOptions& options, std::FILE* csv);
 
 /// Intervals of a box times factors learnt on some shapes, tested on the others.
 void run_mcube_intervals(const TruthOptions& options, std::FILE* csv);

@@ -71,13 +71,35 @@ class Calibrator {
       }
       if (worst >= 0) note_confusion(spread, worst);
       if (worst < 0) worst = profile_all(spread);
-      if (worst < 0) return;
+      if (worst < 0 && !begins_at_better_place()) return;
+      if (worst < 0) continue;
       if (is_unset(worst)) {
         out_.parameters[static_cast<std::size_t>(worst)].profile =
             profile(problem_, rows_, out_.fit, worst, held_, spread, fit_options_);
       }
       hold(worst);
     }
+  }
+
+  /// A profile that falls below the fit has found a better place: the next fit begins
+  /// there. False if there is none, or it happened too often.
+  bool begins_at_better_place() {
+    constexpr double kBetter = 0.1;
+    constexpr int kMostRestarts = 3;
+    double least = -kBetter;
+    bool found = false;
+    for (int j = 0; j < count_; ++j) {
+      if (held_[static_cast<std::size_t>(j)]) continue;
+      for (const ProfilePoint& point :
+           out_.parameters[static_cast<std::size_t>(j)].profile.points) {
+        if (point.rise >= least) continue;
+        least = point.rise;
+        start_ = out_.fit.at;
+        start_[j] = point.value;
+        found = true;
+      }
+    }
+    return found && ++restarts_ <= kMostRestarts;
   }
 
   bool is_unset(int j) const {
@@ -171,6 +193,7 @@ class Calibrator {
   std::vector<bool> held_;
   VectorXd start_;
   FitOptions fit_options_;
+  int restarts_ = 0;
   Calibration out_;
 };
 

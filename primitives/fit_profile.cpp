@@ -57,16 +57,20 @@ class ProfileSide {
       open = true;
       return bound;
     }
-    for (int i = 0; i < 4; ++i) {
-      // Rises are nearly parabolas: their roots are nearly straight.
+    // Near the fit rises are nearly parabolas, so their roots nearly straight; where a
+    // rise begins late or jumps, halving finds it.
+    constexpr int kMostSteps = 10;
+    for (int i = 0; i < kMostSteps; ++i) {
       const double a = std::sqrt(std::max(0.0, inner_rise));
       const double b = std::sqrt(outer_rise);
-      const double share = std::clamp((std::sqrt(limit_) - a) / (b - a), 0.05, 0.95);
+      double share = std::clamp((std::sqrt(limit_) - a) / (b - a), 0.05, 0.95);
+      if (i % 2 == 1) share = 0.5;
       const double at = inner + share * (outer - inner);
       const double here = rise(centre + direction * at, points);
       (here < limit_ ? inner : outer) = at;
       (here < limit_ ? inner_rise : outer_rise) = here;
       if (std::abs(here - limit_) < 0.05 * limit_) return centre + direction * at;
+      if (outer - inner < 0.02 * outer) break;
     }
     return centre + direction * outer;
   }

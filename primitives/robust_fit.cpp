@@ -80,20 +80,9 @@ class Fitter {
     return out;
   }
 
-  /// Derivative of the residuals by a parameter, over `step`, inward at a bound.
+  /// Derivative of the residuals by a parameter, over `step` to both sides where the
+  /// range allows: mirrored problems have mirrored answers.
   MatrixXd derivative(const Point& at, int parameter) {
-    const FitParameter& p = problem_.parameters[static_cast<std::size_t>(parameter)];
-    VectorXd moved = at.at;
-    const bool inward = moved[parameter] + p.step > p.high;
-    moved[parameter] += inward ? -p.step : p.step;
-    MatrixXd out(at.residuals.rows(), at.residuals.cols());
-    problem_.residuals(moved, rows_, out);
-    ++evaluations_;
-    return (out - at.residuals) / (moved[parameter] - at.at[parameter]);
-  }
-
-  /// The same over both sides where the range allows: for curvatures, not for descent.
-  MatrixXd central_derivative(const Point& at, int parameter) {
     const FitParameter& p = problem_.parameters[static_cast<std::size_t>(parameter)];
     VectorXd up = at.at;
     VectorXd down = at.at;
@@ -225,7 +214,7 @@ FitCovariance covariance(const FitProblem& problem, std::span<const int> rows,
   FitCovariance out{MatrixXd::Zero(all, all), MatrixXd::Zero(all, all)};
   if (n == 0) return out;
   std::vector<MatrixXd> J;
-  for (const int j : fitter.free()) J.push_back(fitter.central_derivative(at, j));
+  for (const int j : fitter.free()) J.push_back(fitter.derivative(at, j));
   MatrixXd H = MatrixXd::Zero(n, n);
   MatrixXd B = MatrixXd::Zero(n, n);
   int counted = 0;

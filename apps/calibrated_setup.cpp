@@ -33,8 +33,9 @@ int index_of(const SceneFit& fit, Target target) {
 }
 
 /// Half width over value of the told parameters of this kind, the greatest; `otherwise`
-/// if none is told.
-double share_of(const CalibratedSetup& setup, Target target, double otherwise) {
+/// if none is told. `to_90` takes the half widths to those of 90 %.
+double share_of(const CalibratedSetup& setup, Target target, double otherwise,
+                double to_90) {
   double most = -1.0;
   for (std::size_t j = 0; j < setup.fit.targets.size(); ++j) {
     const CalibratedParameter& parameter = setup.calibration.parameters[j];
@@ -43,13 +44,13 @@ double share_of(const CalibratedSetup& setup, Target target, double otherwise) {
     most = std::max({most, interval.high / parameter.value - 1.0,
                      1.0 - interval.low / parameter.value});
   }
-  return most < 0.0 ? otherwise : std::min(1.0, most);
+  return most < 0.0 ? otherwise : std::min(1.0, to_90 * most);
 }
 
-double torque_radius_share(const CalibratedSetup& setup) {
+double torque_radius_share(const CalibratedSetup& setup, double to_90) {
   const int j = index_of(setup.fit, Target::kEdgeLoad);
   if (j < 0 || !setup.calibration.parameters[static_cast<std::size_t>(j)].told) {
-    return share_of(setup, Target::kTorqueRadius, kUsualTorqueRadius);
+    return share_of(setup, Target::kTorqueRadius, kUsualTorqueRadius, to_90);
   }
   const FitInterval& interval =
       setup.calibration.parameters[static_cast<std::size_t>(j)].profile.interval;
@@ -60,10 +61,10 @@ double torque_radius_share(const CalibratedSetup& setup) {
     const double c = torque_radius(with_values(setup.before, setup.fit.targets, at));
     most = std::max(most, std::abs(c / setup.c_after - 1.0));
   }
-  return most;
+  return std::min(1.0, to_90 * most);
 }
 
-double place_width(const CalibratedSetup& setup) {
+double place_width(const CalibratedSetup& setup, double to_90) {
   double most = 0.0;
   for (const Target target : {Target::kRegistrationX, Target::kRegistrationY}) {
     const int j = index_of(setup.fit, target);
@@ -77,6 +78,10 @@ double place_width(const CalibratedSetup& setup) {
 }
 
 CalibrationRecord record_of(const CalibratedSetup& setup, const std::string& source) {
+  const int freedom =
+      std::max(3, static_cast<int>(setup.data.size()) - setup.calibration.told());
+  const double to_90 = student_quantile(0.95, freedom) /
+                       student_quantile(0.5 + 0.5 * setup.options.level, freedom);
   CalibrationRecord record;
   record.data = source;
   record.pushes = setup.data.size();
@@ -221,8 +226,8 @@ void warn(CalibratedSetup& setup) {
   warn_untold(setup);
   if (setup.misses > 0) {
     setup.warnings.push_back(
-        text("%d of %d pushes meet no face that their pusher may touch: no motion is "
-             "predicted for them",
+        text("%d of %d pushes meet no face that their pusher may touch, or are not "
+             "possible where they start: no motion is predicted for them",
              setup.misses, count));
   }
   warn_outliers(setup);
@@ -263,13 +268,13 @@ CalibratedSetup calibrate_setup(const Scene& scene, Measurements data,
   out.data = std::move(data);
   out.options = options;
   if (out.is_of_pushes()) {
-    out.fit = push_fit(
-        scene, out.data.pushes,
-        {.pressure = options.pressure,
-         .registration = options.registration,
-         .for_each = [&options](int count, const std::function<void(int)>& work) {
-           for_each_index(count, options.jobs, work);
-         }});
+    out.fit = push_fit(scene, out.data.pushes,
+                       {.pressure = options.pressure,
+                        .registration = options.registration,
+                        .for_each = [jobs = options.jobs](
+                                        int count, const std::function<void(int)>& work) {
+                          for_each_index(count, jobs, work);
+                        }});
   } else {
     out.fit = slip_fit(scene, out.data.readings);
   }
@@ -304,7 +309,10 @@ CalibratedSetup calibrate_setup(const Scene& scene, Measurements data,
   if (out.is_of_pushes()) {
     const Model model = prepare(out.after);
     for (const MeasuredPush& push : out.data.pushes) {
-      out.misses += !push_of(model, push, record.registration);
+      const TransitionStatus status =
+          predict(model, push, record.registration, {.tolerance = 1e-5}).status;
+      out.misses +=
+          status == TransitionStatus::kNotRun || status == TransitionStatus::kRefused;
     }
     out.scored = Factors(out, record).set(record);
   }

@@ -193,14 +193,16 @@ void run(const TruthOptions& options, std::FILE* csv) {
     const char* name;
     const char* folder;
     void (*run)(const TruthOptions&, std::FILE*);
+    bool only_if_named = false;  // it takes minutes
   };
   for (const Part& part : {Part{"pin_push", "pin_push", run_pins},
                            Part{"mcube_push", "mcube_push", run_mcube},
                            Part{"calibrated", "mcube_push", run_mcube_calibrated},
-                           Part{"few", "mcube_push", run_mcube_few},
+                           Part{"few", "mcube_push", run_mcube_few, true},
                            Part{"intervals", "mcube_push", run_mcube_intervals},
                            Part{"line_push", "line_push", run_lines}}) {
-    if (!options.set.empty() && options.set != part.name) continue;
+    const bool is_named = options.set == part.name;
+    if (!is_named && (!options.set.empty() || part.only_if_named)) continue;
     if (!std::filesystem::is_directory(options.data / part.folder)) {
       std::printf("\n%s: skipped: no folder %s\n", part.name,
                   (options.data / part.folder).c_str());
@@ -218,7 +220,8 @@ int usage(std::FILE* out) {
       "  [--recording TEXT] [--every N] [--points N] [--samples N] [--quick] "
       "[-o FILE]\n"
       "DATA: a folder with the sets (docs/benchmarks.md says where from)\n"
-      "--recording: only recordings whose name holds the text; --every: one of "
+      "few only if it is named. --recording: only recordings whose name holds the text; "
+      "--every: one of "
       "N pushes,\nof mcube_push one of N pairs of contact positions; --quick: "
       "every 8, 20 samples\n");
   return out == stdout ? 0 : 2;

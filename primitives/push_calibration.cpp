@@ -92,11 +92,15 @@ void add_pressure(SceneFit& fit, const Scene& scene, PressureFit pressure) {
        .tries = {-0.5, 0.5, 1.5}});
 }
 
-void add_registration(SceneFit& fit) {
+/// What an earlier calibration found is where the next begins.
+void add_registration(SceneFit& fit, const Scene& scene) {
+  const Vec2 before =
+      scene.calibration ? scene.calibration->registration : Vec2(0.0, 0.0);
   for (const bool is_y : {false, true}) {
     add(fit, {is_y ? Target::kRegistrationY : Target::kRegistrationX},
         {.name = is_y ? "registration y" : "registration x",
-         .start = 0.0,
+         .start =
+             std::clamp(is_y ? before.y() : before.x(), -kLargestOffset, kLargestOffset),
          .low = -kLargestOffset,
          .high = kLargestOffset,
          .step = 1e-4,
@@ -187,7 +191,7 @@ SceneFit push_fit(const Scene& scene, const std::vector<MeasuredPush>& pushes,
   }
   if (has_force) add_finger_friction(out, scene);
   add_pressure(out, scene, options.pressure);
-  if (options.registration) add_registration(out);
+  if (options.registration) add_registration(out, scene);
   out.parts = {"along", "across", "angle", "force"};
   out.problem.rows = static_cast<int>(pushes.size());
   out.problem.resolution = {1e-5, 1e-5, 1e-3, kLogScale};

@@ -85,7 +85,7 @@ void set_factors(const Options& options, const Scene& scene, SpreadReport& repor
     if (own) {
       take(*own, text("calibrated on %llu pushes of this set-up (",
                       static_cast<unsigned long long>(scene.calibration->pushes)) +
-                     scene.calibration->data + ")");
+                     scene.calibration->data + "), for pushes like them");
       return;
     }
   }
@@ -117,10 +117,6 @@ int run(const Options& options) {
   const UncertaintyBox box =
       parse_box(options.vary,
                 file.scene.calibration ? box_of(*file.scene.calibration) : usual_box());
-  if (file.scene.calibration) {
-    report.scatter = file.scene.calibration->scatter;
-    report.scatter_angle = file.scene.calibration->scatter_angle;
-  }
   report.box_source = !options.vary.empty()    ? "given by --vary"
                       : file.scene.calibration ? "left uncertain by the calibration"
                                                : "as usual where nobody has measured";

@@ -91,6 +91,11 @@ CalibrationRecord record_of(const CalibratedSetup& setup, const std::string& sou
       share_of(setup, Target::kFingerFriction, kUsualFingerFriction, to_90);
   record.torque_radius = torque_radius_share(setup, to_90);
   record.place = place_width(setup, to_90);
+  if (setup.is_of_pushes()) {
+    const std::vector<double>& scale = setup.calibration.fit.scale;
+    record.scatter = std::min(1.0, std::max(scale[0], scale[1]));
+    record.scatter_angle = std::min(4.0, scale[2]);
+  }
   return record;
 }
 
@@ -141,8 +146,9 @@ class Factors {
     const Vec3 happened(off.dot(n), off.dot(perp(n)),
                         wrapped(measured.X_HO_end.theta - nominal.theta));
     const Deviation& motion = ensemble.nominal_motion;
-    const double moved = kFloorShare * std::hypot(motion.normal, motion.tangential);
-    const double turned = kFloorShare * std::abs(motion.angle);
+    const double moved = std::hypot(
+        kFloorShare * std::hypot(motion.normal, motion.tangential), record_.scatter);
+    const double turned = std::hypot(kFloorShare * motion.angle, record_.scatter_angle);
     for (std::size_t level = 0; level < kLevels.size(); ++level) {
       for (int part = 0; part < kDeviations; ++part) {
         const SpreadQuantiles spread = spread_quantiles(

@@ -117,6 +117,10 @@ int run(const Options& options) {
   const UncertaintyBox box =
       parse_box(options.vary,
                 file.scene.calibration ? box_of(*file.scene.calibration) : usual_box());
+  if (file.scene.calibration) {
+    report.scatter = file.scene.calibration->scatter;
+    report.scatter_angle = file.scene.calibration->scatter_angle;
+  }
   report.box_source = !options.vary.empty()    ? "given by --vary"
                       : file.scene.calibration ? "left uncertain by the calibration"
                                                : "as usual where nobody has measured";

@@ -82,8 +82,8 @@ plot::Steps distribution(const Ensemble& ensemble, const char* label,
 
 double SpreadReport::floor(int part) const {
   const Deviation& motion = from_both.nominal_motion;
-  return floor_share * (part == 2 ? std::abs(motion.angle)
-                                  : std::hypot(motion.normal, motion.tangential));
+  if (part == 2) return std::hypot(floor_share * motion.angle, scatter_angle);
+  return std::hypot(floor_share * std::hypot(motion.normal, motion.tangential), scatter);
 }
 
 SpreadInterval SpreadReport::interval(int part) const {
@@ -121,8 +121,13 @@ std::string describe(const SpreadReport& report) {
   out += "spread from friction and pressure: " + box_text(report.mechanics) + '\n';
   out += "registration: " + box_text(report.registration) + '\n';
   out += "these boxes: " + report.box_source + '\n';
-  out += text("floor: %g %% of the motion, friction from spot to spot\n",
+  out += text("floor: %g %% of the motion, friction from spot to spot",
               100.0 * report.floor_share);
+  if (report.scatter > 0.0) {
+    out += text("; %.3g mm and %.3g deg that the calibration could not explain",
+                to_mm(report.scatter), to_deg(report.scatter_angle));
+  }
+  out += '\n';
   return out + "factor: " + report.factor_source + '\n';
 }
 
@@ -144,7 +149,10 @@ nlohmann::ordered_json to_json(const SpreadReport& report) {
       {"registration",
        ensemble_json(report, report.from_registration, report.registration)},
       {"both", ensemble_json(report, joint, both(report))},
-      {"floor", {{"share_of_motion", number(report.floor_share)}}},
+      {"floor",
+       {{"share_of_motion", number(report.floor_share)},
+        {"scatter", number(report.scatter)},
+        {"scatter_angle", number(report.scatter_angle)}}},
       {"factor", {{"source", report.factor_source}}},
       {"interval", nlohmann::ordered_json::object()}};
   for (int part = 0; part < kDeviations; ++part) {

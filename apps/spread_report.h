@@ -17,7 +17,9 @@ struct SpreadReport {
   UncertaintyBox mechanics;     ///< frictions, forces, pressure, masses
   UncertaintyBox registration;  ///< places, directions, pose of the object in the hand
   Ensemble from_mechanics, from_registration, from_both;
-  double floor_share = 0.0;  ///< of the motion: friction differs from spot to spot
+  double floor_share = 0.0;    ///< of the motion: friction differs from spot to spot
+  double scatter = 0.0;        ///< [m] that a calibration could not explain
+  double scatter_angle = 0.0;  ///< [rad] likewise
   std::array<double, kDeviations> factor{1.0, 1.0, 1.0};
   bool has_factor = false;    ///< false: no factor is known, and none is used
   std::string factor_source;  ///< the data behind the factors

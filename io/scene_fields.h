@@ -279,6 +279,10 @@ void visit_calibration(Fields& fields, CalibrationRecord& record) {
                 "Half width, as a share.");
   fields.number("place", record.place, {0.0, 1.0, "m"}, kOptional,
                 "Half width, along the face and towards it.");
+  fields.number("scatter", record.scatter, {0.0, 1.0, "m"}, kOptional,
+                "What no parameter explains of where pushes end, measurement included.");
+  fields.angle("scatter_angle", record.scatter_angle, {0.0, 4.0, "rad"},
+               "The same of how far they turn.");
   fields.vector("factors_50", record.factors_50, kFactors,
                 "On intervals of the end of a push (normal, tangential, angle) that made "
                 "them cover 50 % of the measured ends. Absent: too few.");

@@ -346,6 +346,8 @@ void check_calibration(Checker& checker, const CalibrationRecord& record) {
   checker.in_range(field + "finger_friction", record.finger_friction, 0.0, 1.0, "");
   checker.in_range(field + "torque_radius", record.torque_radius, 0.0, 1.0, "");
   checker.in_range(field + "place", record.place, 0.0, 1.0, "m");
+  checker.in_range(field + "scatter", record.scatter, 0.0, 1.0, "m");
+  checker.in_range(field + "scatter_angle", record.scatter_angle, 0.0, 4.0, "rad");
   for (const auto* factors : {&record.factors_50, &record.factors_90}) {
     if (!*factors) continue;
     for (const double factor : **factors) {

@@ -229,6 +229,8 @@ struct CalibrationRecord {
   /// Half widths of what stayed uncertain, 90 %: as shares, 0..1.
   double friction = 0.0, finger_friction = 0.0, torque_radius = 0.0;
   double place = 0.0;  ///< [m] of a pusher along the face and towards it, >= 0
+  /// What no parameter explains of where pushes end, measurement included: [m] and [rad].
+  double scatter = 0.0, scatter_angle = 0.0;
   /// Factors on intervals of the end pose of a push (normal, tangential, angle) that made
   /// them cover 50 and 90 % of measured pushes; unset: too few were measured.
   std::optional<Vec3> factors_50, factors_90;

@@ -16,6 +16,8 @@ CalibrationRecord random_record(Random& random) {
   record.finger_friction = random.in(0.0, 1.0);
   record.torque_radius = random.in(0.0, 1.0);
   record.place = random.log_in(1e-6, 1e-2);
+  record.scatter = random.log_in(1e-6, 1e-2);
+  record.scatter_angle = random.log_in(1e-6, 1e-1);
   if (random.chance(0.5)) {
     record.factors_50 = Vec3(random.in(0.0, 9.0), random.in(0.0, 9.0), 1.0);
   }
@@ -39,6 +41,8 @@ TEST(CalibrationRecord, ReturnsUnchanged) {
     EXPECT_EQ(record.factors_50, scene.calibration->factors_50);
     EXPECT_EQ(record.factors_90, scene.calibration->factors_90);
     EXPECT_EQ(record.place, scene.calibration->place);
+    EXPECT_EQ(record.scatter, scene.calibration->scatter);
+    EXPECT_EQ(record.scatter_angle, scene.calibration->scatter_angle);
   }
 }
 

@@ -191,8 +191,8 @@ PrismInstant solve_prism(const SectionPolygon& polygon, double roll,
   answer.motions_found = solutions.count;
   if (solutions.count == 0) {
     const Turning& all = turnings.each[0];
-    if (!tips(answer, all, balance, units))
-      is_jammed(answer, all, balance, sheet_rate, units);
+    answer.exhausted = !tips(answer, all, balance, units) &&
+                       !is_jammed(answer, all, balance, sheet_rate, units);
     return answer;
   }
   put_fastest_first(solutions);

@@ -90,6 +90,9 @@ struct PrismGrip {
 /// Statuses as in CrossSectionInstant. Fields are set as there.
 struct PrismInstant {
   InstantStatus status = InstantStatus::kNotRun;
+  /// kOutOfIterations: every contact mode was tried and none has a solution, so there is
+  /// no quasi-static motion; but no single motion or wedge proves it, as those below do.
+  bool exhausted = false;
   CrossSectionMotion motion;  ///< v_z, v_u of the origin of O
   SectionForces forces;
   std::array<ContactMode, 3> mode{ContactMode::kOpen, ContactMode::kOpen,

@@ -177,7 +177,11 @@ Obstacle PrismRoll::obstacle(double phi, const PrismLook& look) const {
     case InstantStatus::kNotRun:
     case InstantStatus::kSeparated:
     case InstantStatus::kOutOfIterations:
-      return {kUncertified, {}, "the instant has no answer"};
+      return {kUncertified,
+              {},
+              instant.exhausted ? "no contact mode has a solution here: the object would "
+                                  "jerk or jam, and nothing short proves which"
+                                : "the instant has no answer"};
   }
   if (instant.mode[kSheet] == ContactMode::kStick) {
     if (way_ * instant.motion.roll_rate > 0.0)

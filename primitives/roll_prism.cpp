@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kNegligible = 1e-6;
 constexpr double kLongestStep = std::numbers::pi / 180.0;  // [rad] between looks
+constexpr double kJustAfter = 1e-8;                        // [rad] of a change
 constexpr double kNegligibleShare = 1e-12;                 // of the travel
 
 /// Why the roll cannot even begin; empty if it can.
@@ -112,16 +113,33 @@ class Walk {
     record_.add(roll_.sample(phi_, share(), here_));
   }
 
+  /// What each contact touches: while it stays the same, forces change smoothly.
+  std::array<int, 2> touched(double phi) const {
+    const PrismContacts contacts = roll_.contacts(phi);
+    return {contacts.touch[kJaw1].vertex[0], contacts.touch[kJaw2].vertex[0]};
+  }
+
+  /// Cuts a step where a jaw comes to touch something else. True if it did.
+  bool cut_at_a_change(double& end) const {
+    const double from = phi_ + roll_.way() * kJustAfter;
+    if (roll_.way() * (end - from) <= 0.0) return false;
+    const std::array<int, 2> first = touched(from);
+    if (touched(end) == first) return false;
+    end = last_good(from, end, [&](double phi) { return touched(phi) != first; });
+    return true;
+  }
+
   void advance(double longest) {
     bool is_flat = false;
     double target = roll_.next(phi_, longest, is_flat);
     // Just before a flat the contacts are still those of this step.
     double before = is_flat ? target - roll_.way() * kJustBefore : target;
     if (roll_.way() * (before - phi_) <= 0.0) before = target;
+    const bool is_change = cut_at_a_change(before);
+    if (is_change) is_flat = false;
     if (done_ + travel_to(before) >= travel_) {
       const double left = travel_ - done_;
-      before = target =
-          last_good(phi_, before, [&](double phi) { return travel_to(phi) > left; });
+      before = last_good(phi_, before, [&](double phi) { return travel_to(phi) > left; });
       is_flat = false;
       ends_ = true;
     }
@@ -129,17 +147,30 @@ class Walk {
     if (!ahead.rolls) return end_within(before);
     if (!is_flat) {
       move_to(before, ahead);
+      if (is_change && !ends_) check_just_after();
     } else {
-      const PrismLook at = look(target);
-      if (!at.contacts.held()) return stop(target, at);
-      move_to(target, at);
-      const int pivot = roll_.pivot(at.contacts);
-      if (pivot != pivot_) record_.add_passing(EventKind::kOverEdge, share());
-      pivot_ = pivot;
-      ends_ = done_ >= travel_ * (1.0 - kNegligibleShare);
-      if (!at.rolls && !ends_ && !record_.stopped()) stop(target, at);
+      arrive_at(target);
     }
     if (ends_) done_ = travel_;
+  }
+
+  /// Beyond a change of what the jaws touch the forces may jump.
+  void check_just_after() {
+    const double after = phi_ + 2.0 * roll_.way() * kJustAfter;
+    const PrismLook at = look(after);
+    if (!at.rolls && !record_.stopped()) stop(after, at);
+  }
+
+  /// A side lies flat on the support or at a jaw.
+  void arrive_at(double target) {
+    const PrismLook at = look(target);
+    if (!at.contacts.held()) return stop(target, at);
+    move_to(target, at);
+    const int pivot = roll_.pivot(at.contacts);
+    if (pivot != pivot_) record_.add_passing(EventKind::kOverEdge, share());
+    pivot_ = pivot;
+    ends_ = done_ >= travel_ * (1.0 - kNegligibleShare);
+    if (!at.rolls && !ends_ && !record_.stopped()) stop(target, at);
   }
 
   /// The object stops to roll between here and there.

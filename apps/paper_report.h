@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/report_page.h"
+#include "apps/sweep.h"
 #include "mechanics/model.h"
 
 namespace prehensile::apps {
@@ -23,6 +24,10 @@ Model changed(const Model& model, const Change& change) {
   change(scene);
   return prepare(scene);
 }
+
+/// One instant, as `query sweep` asks it. Throws std::runtime_error for an answer that is
+/// not unique or fails its certificate: the report shows none of those.
+SweepRow answered(const Model& model, const SweepQuestion& question = {});
 
 /// `count` values from low to high.
 std::vector<double> spaced(double low, double high, int count);

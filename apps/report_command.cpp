@@ -50,7 +50,7 @@ void add_scene_table(ReportPage& page, const PaperScenes& scenes) {
   add("roll", scenes.roll, "cylinder, 20 mm radius", "squares, 20 mm", "table");
   add("roll_prism", scenes.prism, "square bar, 30 mm", "strips 30 × 2 mm",
       "rubber sheet");
-  page.table(rows);
+  page.table(rows, "objects");
 }
 
 std::string paper_report() {
@@ -68,10 +68,9 @@ std::string paper_report() {
   lead +=
       "beside what the software finds, and what its equations get wrong. Every number ";
   lead += "on this page was computed when the page was written, by prehensile ";
-  return page.str("Prehensile pushing, recomputed",
-                  lead + PREHENSILE_VERSION +
-                      "; every answer about mechanics has passed "
-                      "its certificate.</p>\n");
+  lead += PREHENSILE_VERSION;
+  lead += "; every exact answer has passed its certificate.</p>\n";
+  return page.str("Prehensile pushing, recomputed", lead);
 }
 
 Command add_report(CLI::App& app) {

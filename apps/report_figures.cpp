@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "apps/paper_report.h"
-#include "apps/sweep.h"
 #include "apps/table.h"
 #include "mechanics/solvers.h"
 #include "primitives/transition.h"
@@ -23,6 +23,14 @@ std::vector<plot::Point> outline_at(const Model& model, const PlanarPose& X_HO) 
     points.push_back({p.x(), p.y()});
   }
   return points;
+}
+
+SweepQuestion pivot_at(double place_mm) {
+  SweepQuestion question;
+  question.push.place_mm = place_mm;
+  question.speed_mm_s = 0.0;
+  question.turn_deg_s = kTurnRate;
+  return question;
 }
 
 /// The object in the hand before and after a push, as in Fig. 5.
@@ -58,6 +66,13 @@ plot::Chart before_and_after(const Model& model, const Grasp& end,
 }
 
 }  // namespace
+
+SweepRow answered(const Model& model, const SweepQuestion& question) {
+  const SweepRow row = ask(model, question);
+  if (row.answered) return row;
+  throw std::runtime_error("report: " + model.scene.name + ": " + row.status + ": " +
+                           row.reason);
+}
 
 std::vector<double> spaced(double low, double high, int count) {
   std::vector<double> values;
@@ -99,12 +114,12 @@ void add_slide_figures(ReportPage& page, const PaperScenes& scenes) {
                       .points = {},
                       .colour = plot::Colour::kGrey,
                       .dash = plot::Dash::kDashed};
-    for (const double grip : spaced(4.0, 40.0, 19)) {
+    for (const double grip : spaced(6.0, 40.0, 18)) {
       const Model model = changed(scenes.slide, [&](Scene& scene) {
         scene.gripper.friction = {mu, mu};
         scene.gripper.grip_force = grip;
       });
-      const SweepRow row = ask(model, {});
+      const SweepRow row = answered(model);
       const double closed_form = 2.0 * mu * grip;
       worst = std::max(worst, std::abs(row.values[1] - closed_form) / closed_form);
       solved.points.push_back({grip, row.values[1]});
@@ -115,10 +130,11 @@ void add_slide_figures(ReportPage& page, const PaperScenes& scenes) {
   }
   page.figure("fig6", chart.svg(),
               "Fig. 6 again: the force that breaks the grasp is linear in the grip "
-              "force. Dashed: the closed form 2 μ N. Largest relative difference: " +
+              "force. Dashed: the closed form 2 μ N (with less grip the line no longer "
+              "balances the weight, and the part tips). Largest relative difference: " +
                   page.number("fig6.worst", worst, "%.1e") + "." +
                   code("prehensile query sweep problems/paper/slide.yaml --over "
-                       "gripper.grip_force=4:40:19 --show normal_force"));
+                       "gripper.grip_force=6:40:18 --show normal_force"));
 }
 
 void add_pivot_figure(ReportPage& page, const PaperScenes& scenes) {
@@ -140,28 +156,28 @@ void add_pivot_figure(ReportPage& page, const PaperScenes& scenes) {
                     .points = {},
                     .marks = true};
     for (const double place : spaced(34.0, -30.0, 17)) {
-      SweepQuestion question;
-      question.push.place_mm = place;
-      question.speed_mm_s = 0.0;
-      question.turn_deg_s = kTurnRate;
-      const SweepRow row = ask(is_point ? point : scenes.pivot, question);
+      const SweepRow row = answered(is_point ? point : scenes.pivot, pivot_at(place));
       line.points.push_back({1e3 * finger - place, row.values[0]});
       if (!is_point) forces.push_back(row.values[0]);
     }
     chart.series.emplace_back(std::move(line));
   }
-  page.figure("fig8", chart.svg(),
-              "Fig. 8 again: the further out the edge pushes, the less force it takes, "
-              "from " +
-                  page.number("fig8.near", forces.front(), "%.2f") + " N at " +
-                  page.number("fig8.near_mm", 1e3 * finger - 34.0, "%.0f") +
-                  " mm (centre of the edge) to " +
-                  page.number("fig8.far", forces.back(), "%.2f") + " N at " +
-                  page.number("fig8.far_mm", 1e3 * finger + 30.0, "%.0f") +
-                  " mm. What counts is the end of the edge that presses: a point at that "
-                  "place needs the same." +
-                  code("prehensile query sweep problems/paper/pivot.yaml --over "
-                       "place_mm=34:-30:17 --speed-mm-s 0 --turn-deg-s 40"));
+  page.figure(
+      "fig8", chart.svg(),
+      "Fig. 8 again: the further out the edge pushes, the less force it takes, "
+      "from " +
+          page.number("fig8.near", forces.front(), "%.2f") + " N at " +
+          page.number("fig8.near_mm", 1e3 * finger - 34.0, "%.0f") +
+          " mm (centre of the edge) to " +
+          page.number("fig8.far", forces.back(), "%.2f") + " N at " +
+          page.number("fig8.far_mm", 1e3 * finger + 30.0, "%.0f") +
+          " mm. What counts is the end of the edge that presses: a point where the near "
+          "edge ends, at " +
+          page.number("fig8.end_mm", 1e3 * finger - 9.0, "%.0f") + " mm, takes " +
+          page.number("fig8.end", answered(point, pivot_at(9.0)).values[0], "%.2f") +
+          " N." +
+          code("prehensile query sweep problems/paper/pivot.yaml --over "
+               "place_mm=34:-30:17 --speed-mm-s 0 --turn-deg-s 40"));
 }
 
 }  // namespace prehensile::apps

@@ -43,11 +43,14 @@ code { font: .82rem/1.45 "JetBrains Mono", "DejaVu Sans Mono", Menlo, Consolas, 
 .statements td:nth-child(1) { width: 25%; } .statements td:nth-child(2) { width: 8%; }
 .statements td:nth-child(4) { width: 8rem; }
 .traps td:nth-child(1) { width: 30%; }
+.objects td, .objects code { white-space: nowrap; }
 .where { color: var(--soft); white-space: nowrap; }
-.confirmed { color: var(--good); font-weight: 600; }
+.confirmed, .done { color: var(--good); font-weight: 600; }
 .limits { color: var(--part); font-weight: 600; }
 .differs { color: var(--bad); font-weight: 600; }
-td code { display: block; margin-top: .4rem; padding: .25rem .4rem; }
+.statements td code { display: block; margin-top: .4rem; padding: .25rem .4rem; }
+figcaption code { display: block; margin-top: .5rem; padding: .25rem .4rem;
+  width: fit-content; max-width: 100%; }
 )css";
 
 void replace_all(std::string& text, const std::string& from, const std::string& to) {

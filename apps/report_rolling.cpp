@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "apps/paper_report.h"
-#include "apps/sweep.h"
 #include "apps/table.h"
 #include "primitives/roll.h"
 

@@ -6,9 +6,8 @@
 #include <Eigen/Dense>
 
 #include "apps/paper_report.h"
-#include "apps/sweep.h"
 #include "apps/table.h"
-#include "mechanics/solvers.h"
+#include "mechanics/planar_instant.h"
 #include "scene/pad_quadrature.h"
 
 namespace prehensile::apps {
@@ -130,15 +129,21 @@ void add_traps(ReportPage& page, const PaperScenes& scenes) {
           page.number("t.cone.printed", std::sqrt(mu) * grip, "%.2f") +
           " N of friction instead of " + page.number("t.cone.right", mu * grip, "%.2f") +
           " N.");
-  // A pusher that the object sticks to: the relative rate vanishes, the object's does
-  // not.
-  const SweepRow slide = ask(scenes.slide, {});
+  // A pusher that moves along the face as well, and that the object sticks to.
+  const Model& model = scenes.slide;
+  const PushContact& contact = model.contacts[0];
+  const PlanarPose& X_HO = model.scene.start.X_HO;
+  const double along_face = 0.01 * std::sin(0.1);
+  const PlanarInstant stick =
+      solve_planar(grasp_at(model, X_HO, contact.g_O),
+                   drive_at(contact, 0.0, X_HO, {0.01 * std::cos(0.1), along_face, 0.0}));
   add(rows, "VI-A", "The dissipation condition with the acceleration of the object.",
       "With the relative rate at the contact, as in eq. (4).",
-      "Where the line pushes the slide the object moves at " +
-          page.number("t.rate.object", 1e3 * slide.values[3], "%.3f") +
+      "Pushed 0.1 rad askew the object moves along the face at " +
+          page.number("t.rate.object", 1e3 * (along_face + stick.pusher[0].slip_rate),
+                      "%.3f") +
           " mm/s and against the pusher at " +
-          page.number("t.rate.relative", 1e3 * (slide.values[3] - 0.01), "%.3f") +
+          page.number("t.rate.relative", 1e3 * stick.pusher[0].slip_rate, "%.3f") +
           " mm/s: the contact sticks, which the printed condition forbids.");
   // A line patch that turns about p1 = 0: p2 = +10 mm, p_j = -10 mm.
   const double turning = 1.0;

@@ -28,7 +28,9 @@ int main() try {
   }
   std::printf("from %.3f N", range.low.force);
   std::printf(range.high.is_open ? " up\n" : " to %.3f N\n", range.high.force);
-  std::printf("below: %s\n", std::string(range.low.outside.reason).c_str());
+  std::printf("below: %s, %.3f mm from where it should end\n",
+              std::string(name(range.low.outside.status)).c_str(),
+              1e3 * range.low.strayed);
   std::printf("the grasp alone holds from %.3f N before and %.3f N after\n",
               range.hold_start, range.hold_end);
   for (const GripSample& at : range.profile) {

@@ -16,8 +16,9 @@ namespace {
 constexpr double kDeg = 57.29577951308232;
 
 void ask(const Model& model, const PlanarPose& to) {
-  const PlaceAnswer answer = find_place(
-      model, motion_between(model.scene.start.X_HO, to), {.grip_low = 5, .grip_high = 40});
+  const PlaceAnswer answer =
+      find_place(model, motion_between(model.scene.start.X_HO, to),
+                 {.grip_low = 5, .grip_high = 40, .least_force = true});
   std::printf("to %.0f mm, %.0f mm, %.0f deg: %s\n", 1e3 * to.x, 1e3 * to.y,
               kDeg * to.theta, std::string(name(answer.status)).c_str());
   if (answer.best.found) {

@@ -22,12 +22,11 @@ void spread_of(const char* what, const Scene& scene, const UncertaintyBox& box) 
   const Grasp nominal = apply(prepare(scene), scene.start, push).end;
   std::vector<double> distance, angle;
   for (std::uint64_t i = 0; i < kMembers; ++i) {
-    const UncertainPush member =
-        vary(scene, scene.start, push, box, random_point(1, i));
+    const UncertainPush member = vary(scene, scene.start, push, box, random_point(1, i));
     if (!check(member.scene).empty()) continue;  // beyond what a scene can be
     const Grasp end = apply(prepare(member.scene), member.start, member.push).end;
-    distance.push_back(std::hypot(end.X_HO.x - nominal.X_HO.x,
-                                  end.X_HO.y - nominal.X_HO.y));
+    distance.push_back(
+        std::hypot(end.X_HO.x - nominal.X_HO.x, end.X_HO.y - nominal.X_HO.y));
     angle.push_back(std::abs(end.X_HO.theta - nominal.X_HO.theta));
   }
   std::sort(distance.begin(), distance.end());

@@ -97,12 +97,17 @@ void visit_object(Fields& fields, Object& object) {
             f.word("axis", cylinder.axis, kAxisWords, kOptional, "Axis in O.");
           }),
       alternative<PrismShape>(
-          "prism", "Straight prism along z over a polygon in the pad plane of O.",
+          "prism",
+          "Straight prism over a polygon: along z, the polygon in the pad plane of O; or "
+          "lying along x or y, the polygon its convex section, which a support can roll "
+          "over its edges.",
           [](auto& f, PrismShape& prism) {
             f.points("outline", prism.outline, Length{3, 200}, kPlaces,
-                     "Vertices [x, y], counter-clockwise; edges must not cross.");
+                     "Vertices, counter-clockwise; edges must not cross. [x, y]; of a "
+                     "section [y, z] (axis x) or [x, z] (axis y).");
             f.number("thickness", prism.thickness, kLengths, kRequired,
-                     "Along z, between the jaws.");
+                     "Along the axis.");
+            f.word("axis", prism.axis, kAxisWords, kOptional, "Of the prism in O.");
           }),
       alternative<SolidShape>("solid",
                               "Any solid body held at two flat faces, as made from a "

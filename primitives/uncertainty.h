@@ -53,6 +53,9 @@ struct UncertaintyBox {
   std::vector<Unknown> active() const;
 };
 
+/// What stayed uncertain after a calibration.
+UncertaintyBox box_of(const CalibrationRecord& record);
+
 /// A place in the box: each coordinate in [-1, 1] half widths.
 using BoxPoint = std::array<double, kUnknowns>;
 

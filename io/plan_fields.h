@@ -39,6 +39,8 @@ inline const auto kStatusWords = named(
     std::array{PlanStatus::kNotRun, PlanStatus::kReachedGoal, PlanStatus::kNothingToDo,
                PlanStatus::kInfeasible, PlanStatus::kBudgetSpent, PlanStatus::kStopped,
                PlanStatus::kUnsupported});
+inline const auto kPromiseWords = named(std::array{
+    Promise::kNominal, Promise::kNominalOnly, Promise::kMargin, Promise::kScene});
 inline const auto kProofWords = named(std::array{
     Proof::Kind::kGoalOffObject, Proof::Kind::kStartFalls, Proof::Kind::kGoalFalls,
     Proof::Kind::kNoPusher, Proof::Kind::kNoRoll, Proof::Kind::kHalfSpace});
@@ -117,6 +119,16 @@ void visit_push(Fields& fields, WrittenPush& push) {
                   "Of the end pose.");
 }
 
+/// A number that files of before it do not have: 0 if absent, written only if not 0.
+template <typename Fields>
+void if_positive(Fields& fields, const char* key, double& value, const Bounds& bounds,
+                 const char* doc) {
+  std::optional<double> written;
+  if (value > 0.0) written = value;
+  fields.number(key, written, bounds, doc);
+  value = written.value_or(0.0);
+}
+
 template <typename Fields>
 void visit_margin(Fields& fields, Margin& margin) {
   fields.number("friction", margin.friction, kShares, kRequired, "Of the pusher.");
@@ -126,6 +138,10 @@ void visit_margin(Fields& fields, Margin& margin) {
   fields.number("place", margin.place, kDistances, kRequired, "Of the pusher.");
   fields.number("centre_of_mass", margin.centre_of_mass, kDistances, kRequired,
                 "Of the object.");
+  if_positive(fields, "grasp", margin.grasp, kDistances,
+              "Of the finger axis in the object when the first push begins. Absent: 0.");
+  if_positive(fields, "tilt", margin.tilt, {0.0, 10.0, "rad"},
+              "Of the motion and of gravity against the face. Absent: 0.");
 }
 
 template <typename Fields>
@@ -174,6 +190,9 @@ void visit_plan(Fields& fields, WrittenPlan& record) {
   fields.group("margin", plan.margin, kRequired,
                "Box of uncertainty that every push survives: shares, and distances in m.",
                [](auto& f, Margin& margin) { visit_margin(f, margin); });
+  fields.word("promise", plan.promise, kPromiseWords, kOptional,
+              "What the margin is. nominal only: no plan was found that survives the one "
+              "asked for, this one holds for the values of the scene alone.");
   fields.group("start", plan.start, kRequired, "Pose in the hand before.", kVisitGrasp);
   fields.group("goal", plan.goal, kRequired, "Pose reached.", kVisitGrasp);
   fields.list("pushes", record.pushes, Length{0, kMostPushes}, kRequired, "In order.",

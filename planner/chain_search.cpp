@@ -68,6 +68,7 @@ class ChainSearch {
   void keep(std::optional<FoundChain> found) {
     if (found && (!found_ || found->chain.cost < found_->chain.cost)) {
       found_ = std::move(found);
+      if (work_.meter) work_.meter->found(found_->chain.cost);
     }
   }
 

@@ -202,7 +202,10 @@ class LabelSearch {
                stop_at(label.node), work_, scratch_.legs[label.depth - 1]);
     }
     const double dtheta = goals_.places[place].theta[angle] - start_.theta;
-    if (!solve_chain(search_, dtheta, scratch_)) return;
+    if (!solve_chain(search_, dtheta, scratch_)) {
+      work_.obstacles.add(Obstacle::kRotation);
+      return;
+    }
     if (best_ && scratch_.cost >= best_->chain.cost) return;
     ++checks_;
     if (!make_chain_stick(search_, start_.theta, dtheta, scratch_, work_)) {
@@ -210,6 +213,7 @@ class LabelSearch {
     }
     if (best_ && scratch_.cost >= best_->chain.cost) return;
     best_ = {scratch_, place, angle};
+    if (work_.meter) work_.meter->found(scratch_.cost);
   }
 
   const Steering& steering_;

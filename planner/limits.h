@@ -23,7 +23,10 @@ class Limits {
     return spent.count() > options_.time_limit;
   }
 
-  bool reached() const { return work_.spent() || stopped() || out_of_time(); }
+  bool reached() const {
+    if (work_.meter) work_.meter->tick(work_.stick_tests + work_.propagations);
+    return work_.spent() || stopped() || out_of_time();
+  }
 
  private:
   const PlanOptions& options_;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mechanics/sticking.h"
+#include "planner/obstacle.h"
 #include "primitives/push.h"
 #include "primitives/transition.h"
 
@@ -58,6 +59,15 @@ struct Proof {
 };
 std::string_view name(Proof::Kind kind);
 
+/// What a plan promises to survive.
+enum class Promise {
+  kNominal,      ///< as asked: only the values of the scene
+  kNominalOnly,  ///< no plan was found for the margin asked for; this one has none
+  kMargin,       ///< the margin given in the options, or the usual box
+  kScene,        ///< the uncertainty that the scene states
+};
+std::string_view name(Promise promise);
+
 struct Plan {
   PlanStatus status = PlanStatus::kNotRun;
   std::string message;
@@ -66,6 +76,7 @@ struct Plan {
   Grasp start, goal;  ///< goal: the member of the goal set that was reached
   std::vector<PlannedPush> pushes;
   Margin margin;  ///< box of uncertainty that every push survives
+  Promise promise = Promise::kMargin;
 
   double cost = kNan;         ///< J
   double placements = 0;      ///< S
@@ -79,6 +90,8 @@ struct Plan {
   std::int64_t propagations = 0;  ///< work of OMPL's planners
   std::int64_t instants = 0;      ///< exact mechanics calls in checking
   double seconds = kNan;          ///< wall time, recorded only
+  Obstacles obstacles;            ///< met by the own search
+  bool stopped_early = false;     ///< interrupted: the best plan found until then
 
   bool usable() const {
     return status == PlanStatus::kReachedGoal || status == PlanStatus::kNothingToDo;

@@ -24,6 +24,9 @@ std::optional<Move> best_contact(const SearchModel& search, const FlatState& fro
   for (std::size_t i = 0; i < search.contacts.size(); ++i) {
     const Move move{static_cast<int>(i), from, to};
     const double slack = exact_slack(search, move, work);
+    if (!(slack >= -kStickTolerance)) {
+      work.obstacles.add(obstacle_of(search.contacts[i], from.p_OF, to.p_OF));
+    }
     if (!(slack > best_slack) || !pads_hold_gravity(search, move)) continue;
     best_slack = slack;
     best = move;
@@ -51,6 +54,7 @@ bool plan_in_plane(const SearchModel& search, const Grasp& start, const Goal& go
     return true;
   }
   const double bound = lower_bound(*search.model, start, goal);
+  if (work.meter) work.meter->bound(bound);
   const auto found = search_chains(search, from, goals, bound, limits, work);
   if (!found) return false;
   append_chain(search, from, found->chain, plan);

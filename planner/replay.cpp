@@ -93,7 +93,8 @@ ReplayedPush replay_push(const Model& model, const Margin& margin, const Grasp& 
 
 bool margin_is_sound(const Margin& margin) {
   return margin.friction >= 0.0 && margin.force >= 0.0 && margin.torque_radius >= 0.0 &&
-         margin.place >= 0.0 && margin.centre_of_mass >= 0.0;
+         margin.place >= 0.0 && margin.centre_of_mass >= 0.0 && margin.grasp >= 0.0 &&
+         margin.tilt >= 0.0;
 }
 
 bool agrees(double stated, double computed) {
@@ -153,9 +154,11 @@ Replay replay(const Model& model, const Plan& plan, const ReplayOptions& options
       same_grasp(plan.start, start, options) && same_grasp(first, start, options);
   result.connected = poses_connect(plan, options);
   result.end = start;
+  double travelled = 0.0;
   for (const PlannedPush& planned : plan.pushes) {
-    result.pushes.push_back(
-        replay_push(model, plan.margin, result.end, planned, options));
+    result.pushes.push_back(replay_push(model, carried(plan.margin, travelled),
+                                        result.end, planned, options));
+    travelled += travel_in_pad_plane(planned.push);
     const ReplayedPush& replayed = result.pushes.back();
     result.instants += replayed.transition.instants;
     if (!replayed.transition.completed()) break;

@@ -1,6 +1,7 @@
 #include "primitives/uncertainty.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include "scene/outline.h"
 
@@ -46,9 +47,9 @@ struct MovePush {
 
 std::string_view name(Unknown unknown) {
   static constexpr std::array<std::string_view, kUnknowns> kNames = {
-      "friction",         "finger friction",  "grip force", "mass",   "torque radius",
-      "centre of mass x", "centre of mass y", "place",      "travel", "direction",
-      "grasp x",          "grasp y",          "grasp angle"};
+      "friction",         "finger friction",  "grip force",  "mass",   "torque radius",
+      "centre of mass x", "centre of mass y", "place",       "travel", "direction",
+      "grasp x",          "grasp y",          "grasp angle", "tilt"};
   return kNames[static_cast<std::size_t>(unknown)];
 }
 
@@ -62,6 +63,38 @@ std::vector<Unknown> UncertaintyBox::active() const {
     }
   }
   return out;
+}
+
+UncertaintyBox usual_box() {
+  UncertaintyBox box;
+  box[Unknown::kFriction] = 0.10;
+  box[Unknown::kFingerFriction] = 0.05;
+  box[Unknown::kGripForce] = 0.03;
+  box[Unknown::kMass] = 0.01;
+  box[Unknown::kTorqueRadius] = 0.10;
+  box[Unknown::kCentreOfMassX] = box[Unknown::kCentreOfMassY] = 0.7e-3;
+  box[Unknown::kPlace] = 1e-3;
+  box[Unknown::kGraspX] = box[Unknown::kGraspY] = 0.5e-3;
+  box[Unknown::kTilt] = 0.5 * std::numbers::pi / 180.0;
+  return box;
+}
+
+UncertaintyBox box_of(const Scene& scene) {
+  UncertaintyBox box;
+  if (!scene.uncertainty) return box;
+  const Uncertainty& u = *scene.uncertainty;
+  const double scale = u.spread == Spread::kNormal ? u.sigmas : 1.0;
+  box[Unknown::kFriction] = scale * u.friction;
+  box[Unknown::kFingerFriction] = scale * u.finger_friction;
+  box[Unknown::kGripForce] = scale * u.grip_force;
+  box[Unknown::kMass] = scale * u.mass;
+  box[Unknown::kTorqueRadius] = scale * u.torque_radius;
+  box[Unknown::kCentreOfMassX] = box[Unknown::kCentreOfMassY] = scale * u.centre_of_mass;
+  box[Unknown::kGraspX] = box[Unknown::kGraspY] = scale * u.start_position;
+  box[Unknown::kGraspAngle] = scale * u.start_angle;
+  box[Unknown::kPlace] = scale * u.pusher_place;
+  box[Unknown::kTilt] = scale * u.pusher_tilt;
+  return box;
 }
 
 BoxPoint random_point(std::uint64_t seed, std::uint64_t index) {
@@ -118,8 +151,10 @@ UncertainPush vary(const Scene& scene, const Grasp& start, const Push& push,
     out.scene.object.p_OCom = Vec2(centre_of_mass(scene.object) + shift);
     out.scene.object.z_OCom = height_of_mass(scene.object);
   }
+  const double tilt = offset(Unknown::kTilt);
+  for (Pusher& pusher : out.scene.pushers) pusher.normal_angle += tilt;
   std::visit(MovePush{offset(Unknown::kPlace), offset(Unknown::kTravel),
-                      offset(Unknown::kDirection)},
+                      offset(Unknown::kDirection) - tilt},
              out.push);
   if (const double angle = offset(Unknown::kGraspAngle); angle != 0.0) {
     out.start.X_HO =

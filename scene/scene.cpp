@@ -357,26 +357,6 @@ bool can_roll(const Object& object) {
   return cylinder && cylinder->axis != Axis::kZ;
 }
 
-std::optional<double> length_in_plane(const PusherFeature& feature) {
-  if (const auto* line = std::get_if<LineFeature>(&feature)) {
-    return line->length.value_or(kInfinity);
-  }
-  if (const auto* plane = std::get_if<PlaneFeature>(&feature)) {
-    return plane->length.value_or(kInfinity);
-  }
-  return std::nullopt;
-}
-
-double width_across_plane(const PusherFeature& feature) {
-  if (const auto* upright = std::get_if<UprightFeature>(&feature)) {
-    return upright->length.value_or(kInfinity);
-  }
-  if (const auto* plane = std::get_if<PlaneFeature>(&feature)) {
-    return plane->width.value_or(kInfinity);
-  }
-  return 0.0;
-}
-
 std::vector<Fault> check(const Scene& scene) {
   Checker checker;
   const bool rolls = can_roll(scene.object);
@@ -393,6 +373,11 @@ std::vector<Fault> check(const Scene& scene) {
         "the object cannot roll: expected only for a cylinder held on its curved side");
   }
   if (scene.goal) check_goal(checker, *scene.goal, rolls);
+  if (scene.uncertainty) {
+    for (const UncertaintyWidth& w : widths_of(*scene.uncertainty)) {
+      checker.in_range("uncertainty." + w.field, w.value, w.least, w.most, w.unit);
+    }
+  }
   if (checker.clean()) check_start_is_held(checker, scene);
   return checker.take();
 }

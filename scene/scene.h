@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "scene/frames.h"
+#include "scene/uncertainty.h"
 
 namespace prehensile {
 
@@ -229,6 +230,7 @@ struct Scene {
   Overhang overhang = Overhang::kClip;
   Grasp start;
   std::optional<Goal> goal;
+  std::optional<Uncertainty> uncertainty;
 };
 
 /// One thing that is wrong: which field (dotted path as in a scene file), what its value

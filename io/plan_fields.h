@@ -60,12 +60,25 @@ struct WrittenPush {
   PlannedPush planned;  // its numbers; the push itself is made from what is above
 };
 
+/// An obstacle with its count.
+struct WrittenObstacle {
+  std::string constraint;
+  std::uint64_t count = 0;
+};
+
+struct WrittenExplanation {
+  std::string text;
+  std::vector<WrittenObstacle> obstacles;
+  std::vector<ProposedChange> changes;
+};
+
 struct WrittenPlan {
   std::string scene;
   std::string scene_digest;
   Plan plan;  // its pushes and proof are made from the two below
   std::vector<WrittenPush> pushes;
   std::optional<Proof> proof;
+  std::optional<WrittenExplanation> explanation;
   double gap = kNan;
 };
 
@@ -167,6 +180,28 @@ void visit_costs(Fields& fields, WrittenPlan& record) {
                   "1 per push by a new pusher, 0.1 by the same one.");
 }
 
+template <typename Fields>
+void visit_change(Fields& fields, ProposedChange& change) {
+  fields.text("what", change.what, kRequired, "In words.");
+  fields.text("option", change.option, kOptional, "Of the command line that makes it.");
+  fields.text("pusher", change.pusher, kOptional, "To add to the pushers of the scene.");
+  fields.measured("cost", change.cost, kCosts, "J of the plan found with it.");
+}
+
+template <typename Fields>
+void visit_explanation(Fields& fields, WrittenExplanation& explanation) {
+  fields.text("text", explanation.text, kRequired, "One paragraph.");
+  fields.list("stopped_by", explanation.obstacles, Length{0, 100}, kOptional,
+              "What stopped the pushes that the search tried, most frequent first.",
+              [](auto& f, WrittenObstacle& obstacle) {
+                f.text("constraint", obstacle.constraint, kRequired, "In words.");
+                f.count("count", obstacle.count, "Pushes that it stopped.");
+              });
+  fields.list("changes", explanation.changes, Length{0, 1000}, kOptional,
+              "Changes that were planned for and worked.",
+              [](auto& f, ProposedChange& change) { visit_change(f, change); });
+}
+
 /// `Work` is what a plan counts in signed numbers; a file has none below 0.
 template <typename Fields, typename Work>
 void visit_work(Fields& fields, const char* key, Work& work, const char* doc) {
@@ -185,6 +220,9 @@ void visit_plan(Fields& fields, WrittenPlan& record) {
   fields.text("message", plan.message, kRequired, "The same in words.");
   fields.group("proof", record.proof, "Why no plan exists; only if infeasible.",
                [](auto& f, Proof& proof) { visit_proof(f, proof); });
+  fields.group("explanation", record.explanation,
+               "Why there is no plan, or only a nominal one, and what would help.",
+               [](auto& f, WrittenExplanation& e) { visit_explanation(f, e); });
   fields.text("planner", plan.planner, kRequired, "Which planner found it.");
   fields.count("seed", plan.seed, "Of every random choice.");
   fields.group("margin", plan.margin, kRequired,

@@ -124,7 +124,8 @@ bool make_leg(const Steering& steering, int contact, const Stop& from, const Sto
     work.obstacles.add(obstacle_of(search.contacts[contact], from.p_OF, to.p_OF));
     return false;
   }
-  if (!segment_on_object(*search.model, from.p_OF, to.p_OF)) {
+  if (!path_on_object(*search.model, {from.p_OF, from.given}, {to.p_OF, to.given},
+                      search.margin_from(from.p_OF))) {
     work.obstacles.add(Obstacle::kOffObject);
     return false;
   }

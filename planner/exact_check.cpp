@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "planner/roll_step.h"
+#include "planner/steering.h"
 
 namespace prehensile {
 namespace {
@@ -66,6 +67,27 @@ double travel_in_pad_plane(const Push& push) {
   return std::holds_alternative<Roll>(push) ? 0.0 : as_linear(push).travel;
 }
 
+bool stays_on_object(const Model& model, const Plan& plan, std::string* why) {
+  double travelled = 0.0;
+  for (std::size_t i = 0; i < plan.pushes.size(); ++i) {
+    const PlannedPush& push = plan.pushes[i];
+    const Vec2 from = finger_in_object(push.start.X_HO);
+    const Vec2 to = finger_in_object(push.end.X_HO);
+    const bool stays =
+        path_on_object(model, {from, travelled == 0.0},
+                       {to, to == finger_in_object(plan.pushes.back().end.X_HO)},
+                       carried(plan.margin, travelled));
+    travelled += travel_in_pad_plane(push.push);
+    if (stays) continue;
+    if (why) {
+      *why = "push " + std::to_string(i + 1) +
+             ": the pads may leave the object within the margin";
+    }
+    return false;
+  }
+  return true;
+}
+
 bool check_exactly(const Model& model, const TransitionOptions& options, Plan& plan,
                    std::string* why) {
   double travelled = 0.0;
@@ -84,7 +106,7 @@ bool check_exactly(const Model& model, const TransitionOptions& options, Plan& p
     if (why) *why = "push " + std::to_string(i + 1) + ": " + fault;
     return false;
   }
-  return true;
+  return plan.margin.grasp + plan.margin.tilt == 0.0 || stays_on_object(model, plan, why);
 }
 
 }  // namespace prehensile

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -68,6 +69,20 @@ enum class Promise {
 };
 std::string_view name(Promise promise);
 
+/// A change of the scene or of the options that was planned for and worked.
+struct ProposedChange {
+  std::string what;    ///< for people
+  std::string option;  ///< of the command line that makes it; empty: none does
+  std::string pusher;  ///< to add to the scene file's pushers; empty: none
+  double cost = kNan;  ///< J of the plan found with it
+};
+
+/// Why there is no plan, or only a nominal one, and what would help (advice.h).
+struct Explanation {
+  std::string text;  ///< one paragraph
+  std::vector<ProposedChange> changes;
+};
+
 struct Plan {
   PlanStatus status = PlanStatus::kNotRun;
   std::string message;
@@ -86,12 +101,13 @@ struct Plan {
 
   std::string planner;  ///< which planner found it
   std::uint64_t seed = 0;
-  std::int64_t stick_tests = 0;   ///< work of the own planner
-  std::int64_t propagations = 0;  ///< work of OMPL's planners
-  std::int64_t instants = 0;      ///< exact mechanics calls in checking
-  double seconds = kNan;          ///< wall time, recorded only
-  Obstacles obstacles;            ///< met by the own search
-  bool stopped_early = false;     ///< interrupted: the best plan found until then
+  std::int64_t stick_tests = 0;            ///< work of the own planner
+  std::int64_t propagations = 0;           ///< work of OMPL's planners
+  std::int64_t instants = 0;               ///< exact mechanics calls in checking
+  double seconds = kNan;                   ///< wall time, recorded only
+  Obstacles obstacles;                     ///< met by the own search
+  std::optional<Explanation> explanation;  ///< only if asked for, see advice.h
+  bool stopped_early = false;  ///< interrupted: the best plan found until then
 
   bool usable() const {
     return status == PlanStatus::kReachedGoal || status == PlanStatus::kNothingToDo;

@@ -190,6 +190,7 @@ Plan decide(const Model& model, const PlanOptions& options) {
   plan.propagations = work.propagations;
   plan.obstacles = work.obstacles;
   plan.stopped_early = plan.usable() && options.stop && options.stop->load();
+  if (plan.stopped_early) plan.message = "stopped: the best plan found until then";
   return plan;
 }
 

@@ -85,7 +85,8 @@ std::optional<Move> direct_push(const SearchModel& search, const FlatState& star
       const FlatState end{place.p_OF, place.theta[j]};
       const double distance = flat_distance(search, start, end);
       if (distance >= best_distance) continue;
-      on_object = on_object || segment_on_object(*search.model, start.p_OF, place.p_OF);
+      on_object = on_object || path_on_object(*search.model, {start.p_OF, true},
+                                              {place.p_OF, true}, search.margin);
       if (!on_object) break;
       if (const auto move = best_contact(search, start, end, work)) {
         best = move;

@@ -131,6 +131,15 @@ bool passes_pad_check(const SearchModel& search, int contact, const FlatState& f
   return true;
 }
 
+/// A move that begins anywhere but at the start begins at a place of the planner's
+/// choice; whether it ends at a goal is not known here and left to the exact check of the
+/// plan.
+bool stays_on_object(const SearchModel& search, const FlatState& from,
+                     const FlatState& to) {
+  return path_on_object(*search.model, {from.p_OF, from.p_OF == search.p_OF_start},
+                        {to.p_OF, true}, search.margin_from(from.p_OF));
+}
+
 }  // namespace
 
 SearchModel prepare_search(const Model& model, const Margin& margin) {
@@ -177,7 +186,7 @@ LinearPush push_of(const SearchModel& search, const Move& move) noexcept {
 bool move_sticks(const SearchModel& search, int contact, const FlatState& from,
                  const FlatState& to, Work& work) noexcept {
   return passes_closed_form(search, contact, from, to, work) &&
-         segment_inside(search.model->pad_face, from.p_OF, to.p_OF) &&
+         stays_on_object(search, from, to) &&
          passes_pad_check(search, contact, from, to, work);
 }
 
@@ -198,7 +207,7 @@ std::optional<Move> direct_move(const SearchModel& search, const FlatState& from
     const int contact = i < 0 ? preferred : i;
     if (contact < 0 || (i >= 0 && contact == preferred)) continue;
     if (!passes_closed_form(search, contact, from, to, work)) continue;
-    on_object = on_object || segment_inside(search.model->pad_face, from.p_OF, to.p_OF);
+    on_object = on_object || stays_on_object(search, from, to);
     if (!on_object) return std::nullopt;
     if (passes_pad_check(search, contact, from, to, work)) return Move{contact, from, to};
   }
@@ -216,6 +225,19 @@ double move_slack(const SearchModel& search, const Move& move, int points,
     least = std::min(least, pad_test(search, move, place, share, margin).slack);
   }
   return least;
+}
+
+bool path_on_object(const Model& model, const PathEnd& from, const PathEnd& to,
+                    const Margin& margin) noexcept {
+  if (!segment_inside(model.pad_face, from.p_OF, to.p_OF)) return false;
+  double room = carried(margin, (to.p_OF - from.p_OF).norm()).grasp;
+  if (room == 0.0) return true;
+  for (const PathEnd& end : {from, to}) {
+    if (!end.given) continue;
+    room = std::min(room, distance_to_border(model.pad_face, end.p_OF, end.p_OF));
+  }
+  constexpr double kRounding = 1e-9;  // [m]
+  return distance_to_border(model.pad_face, from.p_OF, to.p_OF) >= room - kRounding;
 }
 
 bool segment_on_object(const Model& model, const Vec2& from_p_OF,

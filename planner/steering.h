@@ -102,6 +102,18 @@ std::optional<Move> direct_move(const SearchModel& search, const FlatState& from
 double move_slack(const SearchModel& search, const Move& move, int points,
                   Work& work) noexcept;
 
+/// Whether an end of a path is the planner's choice.
+struct PathEnd {
+  Vec2 p_OF = Vec2::Zero();
+  bool given = false;  ///< start or goal
+};
+
+/// The finger axis stays on the object along a straight path even where it is off its
+/// place by what the margin says; but no farther from the border than it is at an end
+/// that is given. `margin` is that of where the path begins. No heap.
+bool path_on_object(const Model& model, const PathEnd& from, const PathEnd& to,
+                    const Margin& margin) noexcept;
+
 /// The finger axis stays on the object along the straight segment (in O), border
 /// included. Exact for any simple outline, up to rounding. No heap.
 bool segment_on_object(const Model& model, const Vec2& from_p_OF,

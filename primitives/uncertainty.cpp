@@ -1,6 +1,7 @@
 #include "primitives/uncertainty.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "scene/outline.h"
@@ -79,21 +80,28 @@ UncertaintyBox usual_box() {
   return box;
 }
 
-UncertaintyBox box_of(const Scene& scene) {
+UncertaintyBox stated_box(const Scene& scene) {
   UncertaintyBox box;
   if (!scene.uncertainty) return box;
   const Uncertainty& u = *scene.uncertainty;
-  const double scale = u.spread == Spread::kNormal ? u.sigmas : 1.0;
-  box[Unknown::kFriction] = scale * u.friction;
-  box[Unknown::kFingerFriction] = scale * u.finger_friction;
-  box[Unknown::kGripForce] = scale * u.grip_force;
-  box[Unknown::kMass] = scale * u.mass;
-  box[Unknown::kTorqueRadius] = scale * u.torque_radius;
-  box[Unknown::kCentreOfMassX] = box[Unknown::kCentreOfMassY] = scale * u.centre_of_mass;
-  box[Unknown::kGraspX] = box[Unknown::kGraspY] = scale * u.start_position;
-  box[Unknown::kGraspAngle] = scale * u.start_angle;
-  box[Unknown::kPlace] = scale * u.pusher_place;
-  box[Unknown::kTilt] = scale * u.pusher_tilt;
+  box[Unknown::kFriction] = u.friction;
+  box[Unknown::kFingerFriction] = u.finger_friction;
+  box[Unknown::kGripForce] = u.grip_force;
+  box[Unknown::kMass] = u.mass;
+  box[Unknown::kTorqueRadius] = u.torque_radius;
+  box[Unknown::kCentreOfMassX] = box[Unknown::kCentreOfMassY] = u.centre_of_mass;
+  box[Unknown::kGraspX] = box[Unknown::kGraspY] = u.start_position;
+  box[Unknown::kGraspAngle] = u.start_angle;
+  box[Unknown::kPlace] = u.pusher_place;
+  box[Unknown::kTilt] = u.pusher_tilt;
+  return box;
+}
+
+UncertaintyBox box_of(const Scene& scene) {
+  UncertaintyBox box = stated_box(scene);
+  const bool normal = scene.uncertainty && scene.uncertainty->spread == Spread::kNormal;
+  if (!normal) return box;
+  for (double& width : box.half_width) width *= scene.uncertainty->sigmas;
   return box;
 }
 
@@ -103,6 +111,20 @@ BoxPoint random_point(std::uint64_t seed, std::uint64_t index) {
   for (double& coordinate : point) {
     state = mixed(state);
     coordinate = 2.0 * static_cast<double>(state >> 11) * 0x1.0p-53 - 1.0;
+  }
+  return point;
+}
+
+BoxPoint random_normal_point(std::uint64_t seed, std::uint64_t index) {
+  BoxPoint point;
+  std::uint64_t state = mixed(mixed(seed) + index);
+  const auto uniform = [&state] {  // in (0, 1]
+    state = mixed(state);
+    return (static_cast<double>(state >> 11) + 1.0) * 0x1.0p-53;
+  };
+  for (double& coordinate : point) {
+    const double radius = std::sqrt(-2.0 * std::log(uniform()));
+    coordinate = radius * std::cos(2.0 * std::numbers::pi * uniform());
   }
   return point;
 }

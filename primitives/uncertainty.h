@@ -65,6 +65,9 @@ UncertaintyBox usual_box();
 /// standard deviations as it says; zero if the scene states none.
 UncertaintyBox box_of(const Scene& scene);
 
+/// The widths as stated: standard deviations where the distribution is normal.
+UncertaintyBox stated_box(const Scene& scene);
+
 /// The margin of the stick tests that covers every member of a box: a push with robust
 /// slack >= 0 over it sticks for all of them. Exact intervals where the tests are
 /// monotone (friction; weight over friction force, from the corners of mass, grip and
@@ -79,6 +82,10 @@ using BoxPoint = std::array<double, kUnknowns>;
 /// Uniform in the box, the same for the same seed and index; coordinates of width zero
 /// are drawn too, so that leaving one unknown out does not change the others.
 BoxPoint random_point(std::uint64_t seed, std::uint64_t index);
+
+/// The same with a normal distribution of deviation 1 in every coordinate (Box, Muller
+/// 1958).
+BoxPoint random_normal_point(std::uint64_t seed, std::uint64_t index);
 
 /// A corner of the active coordinates: bit k of `index` is the sign of the k-th of them.
 BoxPoint corner(const UncertaintyBox& box, std::uint64_t index);

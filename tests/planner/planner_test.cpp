@@ -10,6 +10,7 @@
 #include "planner/polish.h"
 #include "planner/push_search.h"
 #include "planner/replay.h"
+#include "primitives/uncertainty.h"
 #include "tests/planner/planner_cases.h"
 #include "tests/support/no_heap.h"
 #include "tests/support/random.h"

@@ -141,6 +141,9 @@ Command add_plan(CLI::App& app) {
                        "only a nominal plan is found");
   margin->excludes(nominal)->excludes(robust);
   nominal->excludes(robust);
+  command.add_flag("--improve", options->plan.improve,
+                   "search on for cheaper plans after the first one, until the budget, "
+                   "the time or Ctrl-C ends it");
   command.add_flag("--no-polish", options->no_polish,
                    "keep the plan as the search found it");
   command.add_flag("--no-advice", options->no_advice,

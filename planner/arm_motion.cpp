@@ -175,15 +175,15 @@ class MotionWriter {
       const double share = static_cast<double>(i) / steps;
       const double s = rest_to_rest(share);
       const HandPose pose = path(s);
-      add(phase, share * steps / limits_.rate, s, pose);
+      add(phase, (steps_ + i) / limits_.rate, s, pose);
     }
-    time_ += steps / limits_.rate;
+    steps_ += steps;
     set_guard(phase, first);
   }
 
   void add(ArmPhase phase, double t, double s, HandPose pose) {
     pose.X_WH.theta += turns_;
-    ArmSample sample{.t = time_ + t, .phase = phase, .push = push_};
+    ArmSample sample{.t = t, .phase = phase, .push = push_};
     sample.X_WH = spatial(pose);
     sample.X_WT = {sample.X_WH.position + sample.X_WH.orientation * p_HT_,
                    sample.X_WH.orientation * q_HT_};
@@ -261,7 +261,7 @@ class MotionWriter {
   Eigen::Quaterniond q_HT_;
   ArmMotion motion_;
   int push_ = 0;
-  double time_ = 0.0;
+  int steps_ = 0;  // of 1 / rate since the motion began
   double grip_ = 0.0;
   double z_ = 0.0;      // of the hand, which rolls leave off the mid-plane
   double turns_ = 0.0;  // whole turns that keep the angle of the hand continuous

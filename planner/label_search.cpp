@@ -38,7 +38,8 @@ class LabelSearch {
  public:
   LabelSearch(const Steering& steering, const SearchModel& search,
               const std::vector<Vec2>& nodes, const FlatState& start,
-              const GoalPlaces& goals, const Limits& limits, Work& work)
+              const GoalPlaces& goals, const Limits& limits, Work& work,
+              const std::optional<FoundChain>& known)
       : steering_(steering),
         search_(search),
         nodes_(nodes),
@@ -46,7 +47,8 @@ class LabelSearch {
         goals_(goals),
         limits_(limits),
         work_(work),
-        contacts_(static_cast<int>(search.contacts.size())) {
+        contacts_(static_cast<int>(search.contacts.size())),
+        best_(known) {
     nodes_.push_back(start.p_OF);
     rows_.resize(nodes_.size() * contacts_);
     row_known_.resize(nodes_.size() * contacts_, 0);
@@ -241,8 +243,9 @@ std::optional<FoundChain> search_labels(const Steering& steering,
                                         const SearchModel& search,
                                         const std::vector<Vec2>& nodes,
                                         const FlatState& start, const GoalPlaces& goals,
-                                        const Limits& limits, Work& work) {
-  return LabelSearch(steering, search, nodes, start, goals, limits, work).run();
+                                        const Limits& limits, Work& work,
+                                        const std::optional<FoundChain>& known) {
+  return LabelSearch(steering, search, nodes, start, goals, limits, work, known).run();
 }
 
 }  // namespace prehensile

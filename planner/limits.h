@@ -14,6 +14,9 @@ class Limits {
   Limits(const PlanOptions& options, const Work& work)
       : options_(options), work_(work), begin_(std::chrono::steady_clock::now()) {}
 
+  /// Whether to search on after the first plan.
+  bool improves() const { return options_.improve; }
+
   bool stopped() const { return options_.stop && options_.stop->load(); }
 
   /// The clock is read only if there is a time limit: it decides nothing otherwise.

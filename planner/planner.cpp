@@ -144,7 +144,7 @@ Plan search_with_and_without(const Model& model, const PlanOptions& options, Wor
   without.instants += plan.instants;
   if (!without.usable()) {
     plan.instants = without.instants;
-    plan.message += "; without any margin: " + without.message;
+    plan.message = "with a margin and without: " + without.message;
     return plan;
   }
   without.promise = Promise::kNominalOnly;

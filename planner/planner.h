@@ -24,7 +24,8 @@ struct PlanOptions {
   Promise promise = Promise::kMargin;  ///< what the margin is, for the plan's record
   /// Where no plan survives the margin, look for one that has none and say so.
   bool nominal_if_needed = true;
-  bool polish = true;            ///< shorten the plan found with NLopt, where built
+  bool improve = false;  ///< search on, with the whole budget, after the first plan
+  bool polish = true;    ///< shorten the plan found with NLopt, where built
   TransitionOptions transition;  ///< of the exact check
   /// Set by a signal handler: give up cleanly, with the best plan found so far.
   const std::atomic<bool>* stop = nullptr;

@@ -66,8 +66,9 @@ void say_undecided(const Limits& limits, Plan& plan) {
   plan.message =
       limits.stopped()       ? "stopped before a plan was found"
       : limits.out_of_time() ? "no plan found within the time limit"
-      : limits.reached()
-          ? "no plan found within the work budget"
+      : limits.reached()     ? "no plan found within the work budget"
+      : plan.margin.is_none()
+          ? "every stage of the search ended without a plan"
           : "every stage of the search ended without a plan within the margin; a "
             "smaller margin may admit one";
 }

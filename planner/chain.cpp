@@ -112,7 +112,9 @@ bool make_leg(const Steering& steering, int contact, const Stop& from, const Sto
     work.obstacles.add(Obstacle::kGravity);
     return false;
   }
-  if (steering.measured) {
+  if (steering.measured) {  // slow: the loops around it look at their limits too rarely
+    if (work.interrupted()) return false;
+    if (work.meter) work.meter->tick(work.stick_tests + work.propagations);
     leg.kappas = measured_kappas(search, contact, from.p_OF, to.p_OF, work);
   } else {
     ++work.stick_tests;

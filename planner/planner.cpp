@@ -73,9 +73,15 @@ double uncounted_drift(const Model& model, const Plan& plan) {
   return plan.margin.tilt * most;
 }
 
-/// One search, finished and checked. `drift`: of the plan found, see above.
+/// What a search found before anything was checked.
+struct Found {
+  Plan plan;
+  double drift = 0.0;  ///< [m] see above
+};
+
+/// One search, finished and checked.
 Plan attempt(const Model& model, const PlanOptions& options, const Clearance& clearance,
-             Work& work, double* drift) {
+             Work& work, Found& found) {
   Margin kept = clearance.margin;
   kept.grasp += clearance.extra_grasp;
   const SearchModel search = prepare_search(model, kept);
@@ -93,8 +99,9 @@ Plan attempt(const Model& model, const PlanOptions& options, const Clearance& cl
   const Limits limits(options, work);
   Plan plan = search_plan(search, options, work);
   plan.margin = clearance.margin;
-  *drift = uncounted_drift(model, plan);
+  found.drift = uncounted_drift(model, plan);
   if (plan.status == PlanStatus::kReachedGoal) {
+    found.plan = plan;
     finish(search, options, limits, work, plan);
     if (plan.usable() && !reaches(*model.scene.goal, plan.goal)) {
       set_undecided(plan, "the plan found ends beside the goal");
@@ -106,12 +113,11 @@ Plan attempt(const Model& model, const PlanOptions& options, const Clearance& cl
 /// A plan that fails its exact check is searched again, first farther from slipping by
 /// what its detours carry the finger axis off, then with double the margin.
 Plan search_and_check(const Model& model, const PlanOptions& options,
-                      const Margin& margin, Work& work) {
-  double drift = 0.0;
-  Plan plan = attempt(model, options, {margin}, work, &drift);
+                      const Margin& margin, Work& work, Found& found) {
+  Plan plan = attempt(model, options, {margin}, work, found);
   const auto failed_check = [&] { return plan.instants > 0 && !plan.usable(); };
   const auto again = [&](const Clearance& clearance, const char* how) {
-    Plan other = attempt(model, options, clearance, work, &drift);
+    Plan other = attempt(model, options, clearance, work, found);
     other.instants += plan.instants;
     if (!other.usable()) {
       plan.instants = other.instants;
@@ -120,11 +126,26 @@ Plan search_and_check(const Model& model, const PlanOptions& options,
     }
     plan = std::move(other);
   };
-  if (failed_check() && drift > 0.0) {
-    again({margin, 1.5 * drift}, "; with more room for drift: ");
+  if (failed_check() && found.drift > 0.0) {
+    again({margin, 1.5 * found.drift}, "; with more room for drift: ");
   }
   if (failed_check()) again({margin.scaled(2.0)}, "; with double the margin: ");
   return plan;
+}
+
+/// After an interruption: the plan that was found last, if it holds without a margin.
+void keep_as_nominal(const Model& model, const PlanOptions& options, const Found& found,
+                     Plan& plan) {
+  Plan nominal = found.plan;
+  nominal.margin = Margin::none();
+  if (nominal.pushes.empty() ||
+      !check_exactly(model, options.transition, nominal, nullptr) ||
+      !reaches(*model.scene.goal, nominal.goal)) {
+    return;
+  }
+  nominal.instants += plan.instants;
+  nominal.promise = Promise::kNominalOnly;
+  plan = std::move(nominal);
 }
 
 /// With the margin, and without if that finds nothing.
@@ -134,13 +155,20 @@ Plan search_with_and_without(const Model& model, const PlanOptions& options, Wor
   const bool falls_back = options.nominal_if_needed && !nominal;
   PlanOptions robust = options;
   if (falls_back) robust.time_limit *= kShareOfTime;
-  Plan plan = search_and_check(model, robust, margin, work);
+  Found found;
+  Plan plan = search_and_check(model, robust, margin, work, found);
   plan.promise = nominal ? Promise::kNominal : options.promise;
-  if (!falls_back || plan.status != PlanStatus::kBudgetSpent) return plan;
+  const bool undecided =
+      plan.status == PlanStatus::kBudgetSpent || plan.status == PlanStatus::kStopped;
+  if (!falls_back || !undecided) return plan;
+  if (Limits(options, work).stopped()) {
+    keep_as_nominal(model, options, found, plan);
+    return plan;
+  }
   PlanOptions rest = options;
   rest.time_limit *= 1.0 - kShareOfTime;
   work.budget += work.stick_tests + work.propagations;
-  Plan without = search_and_check(model, rest, Margin::none(), work);
+  Plan without = search_and_check(model, rest, Margin::none(), work, found);
   without.instants += plan.instants;
   if (!without.usable()) {
     plan.instants = without.instants;
@@ -185,6 +213,7 @@ Plan decide(const Model& model, const PlanOptions& options) {
   ProgressMeter meter(options.progress);
   Work work{.budget = options.budget};
   if (options.progress) work.meter = &meter;
+  work.stop = options.stop;
   plan = search_with_and_without(model, options, work);
   plan.stick_tests = work.stick_tests;
   plan.propagations = work.propagations;

@@ -6,6 +6,7 @@
 /// checked with the real pad at points along it, and dropped if it fails there.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -31,6 +32,8 @@ struct Work {
   std::int64_t budget = 0;
   Obstacles obstacles;             ///< what stopped the pushes tried
   ProgressMeter* meter = nullptr;  ///< told how far the search is, if there is one
+  const std::atomic<bool>* stop = nullptr;  ///< as in PlanOptions
+  bool interrupted() const { return stop && stop->load(std::memory_order_relaxed); }
   bool spent() const { return stick_tests + propagations >= budget; }
 };
 

@@ -391,6 +391,11 @@ std::vector<Fault> check(const Scene& scene) {
   }
   if (scene.goal) check_goal(checker, *scene.goal, rolls);
   if (scene.calibration) check_calibration(checker, *scene.calibration);
+  if (scene.uncertainty) {
+    for (const UncertaintyWidth& w : widths_of(*scene.uncertainty)) {
+      checker.in_range("uncertainty." + w.field, w.value, w.least, w.most, w.unit);
+    }
+  }
   if (checker.clean()) check_start_is_held(checker, scene);
   return checker.take();
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "scene/frames.h"
+#include "scene/uncertainty.h"
 
 namespace prehensile {
 
@@ -252,6 +253,7 @@ struct Scene {
   Grasp start;
   std::optional<Goal> goal;
   std::optional<CalibrationRecord> calibration;
+  std::optional<Uncertainty> uncertainty;
 };
 
 /// One thing that is wrong: which field (dotted path as in a scene file), what its value

@@ -46,6 +46,7 @@ int run(int argc, char** argv) {
   const Command contact = add_query_contact(query);
   const Command place = add_query_place(query);
   const Command inspect = add_inspect(app);
+  const Command report = add_report(app);
   std::vector<std::pair<const CLI::App*, Command>> commands = {
       {app.get_subcommand("plan"), plan},
       {app.get_subcommand("check"), check},
@@ -57,7 +58,8 @@ int run(int argc, char** argv) {
       {query.get_subcommand("spread"), spread},
       {query.get_subcommand("contact"), contact},
       {query.get_subcommand("place"), place},
-      {app.get_subcommand("inspect"), inspect}};
+      {app.get_subcommand("inspect"), inspect},
+      {app.get_subcommand("report"), report}};
 #ifdef PREHENSILE_HAS_MESHES
   const Command mesh = add_mesh(app);
   commands.emplace_back(app.get_subcommand("mesh"), mesh);

@@ -9,6 +9,7 @@
 #include <Eigen/Cholesky>
 
 #include "scene/contact_region.h"
+#include "scene/lying_prism.h"
 #include "scene/outline.h"
 
 namespace prehensile {
@@ -28,11 +29,7 @@ std::string text(double value) {
 }
 
 std::string text(const Vec2& p) {
-  std::string out = "[";
-  out += text(p.x());
-  out += ", ";
-  out += text(p.y());
-  return out += ']';
+  return std::string("[").append(text(p.x())).append(", ").append(text(p.y())) + ']';
 }
 
 /// Collects faults; a later group of checks runs only if the earlier ones passed.
@@ -94,10 +91,10 @@ void check_solid(Checker& checker, const SolidShape& solid) {
   check_outline(checker, field + ".outline", solid.outline);
   check_outline(checker, field + ".pad_face", solid.pad_face);
   if (solid.heights.size() != solid.outline.size()) {
-    checker.fault(field + ".heights", std::to_string(solid.heights.size()) +
-                                          " members: expected one for " + "each of the " +
-                                          std::to_string(solid.outline.size()) +
-                                          " edges of the outline");
+    std::string what =
+        std::to_string(solid.heights.size()) + " members: expected one for ";
+    what += "each of the " + std::to_string(solid.outline.size());
+    checker.fault(field + ".heights", what + " edges of the outline");
   }
   for (const Vec2& heights : solid.heights) {
     checker.place(field + ".heights", heights);
@@ -128,6 +125,8 @@ void check_object(Checker& checker, const Object& object) {
   } else if (const auto* prism = std::get_if<PrismShape>(&object.shape)) {
     checker.length("object.prism.thickness", prism->thickness);
     check_outline(checker, "object.prism.outline", prism->outline);
+    const std::string fault = checker.clean() ? section_fault(*prism) : std::string();
+    if (!fault.empty()) checker.fault("object.prism.outline", fault);
   } else if (const auto* solid = std::get_if<SolidShape>(&object.shape)) {
     check_solid(checker, *solid);
   } else {
@@ -189,8 +188,7 @@ void check_pad(Checker& checker, const Gripper& gripper, const Object& object) {
   if (thin && can_roll(object)) {
     checker.fault(field,
                   "a line, point or polygon pad on the curved side of a cylinder: "
-                  "expected a disc or a "
-                  "rectangle");
+                  "expected a disc or a rectangle");
   }
 }
 
@@ -239,9 +237,9 @@ void check_faces(Checker& checker, const std::string& path, const Pusher& pusher
     }
     const double room = faces[face].length();
     if (length && !faces[face].on_hull && !(*length <= room)) {
-      checker.fault(path + ".faces", wanted + ": lies in a notch of " + text(room) +
-                                         " m: expected a point or a "
-                                         "line of at most that length");
+      checker.fault(path + ".faces",
+                    wanted + ": lies in a notch of " + text(room) +
+                        " m: expected a point or a line of at most that length");
     }
   }
 }
@@ -393,6 +391,11 @@ std::vector<Fault> check(const Scene& scene) {
   }
   if (scene.goal) check_goal(checker, *scene.goal, rolls);
   if (scene.calibration) check_calibration(checker, *scene.calibration);
+  if (scene.uncertainty) {
+    for (const UncertaintyWidth& w : widths_of(*scene.uncertainty)) {
+      checker.in_range("uncertainty." + w.field, w.value, w.least, w.most, w.unit);
+    }
+  }
   if (checker.clean()) check_start_is_held(checker, scene);
   return checker.take();
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "scene/frames.h"
+#include "scene/uncertainty.h"
 
 namespace prehensile {
 
@@ -31,10 +32,14 @@ struct CylinderShape {
   Axis axis = Axis::kZ;
 };
 
-/// Straight prism along z over a simple polygon in the pad plane of O.
+/// Straight prism over a simple polygon. `axis` kZ: along z, the polygon is the outline
+/// in the pad plane of O. `axis` kX or kY: the prism lies in the pad plane, the polygon
+/// is its convex section (lateral axis, z), see scene/lying_prism.h; the jaws hold two
+/// flat sides of it, and a support can roll it over its edges.
 struct PrismShape {
   std::vector<Vec2> outline;  ///< [m], counter-clockwise, at least 3 vertices
-  double thickness = 0.0;     ///< [m] along z, between the jaws
+  double thickness = 0.0;     ///< [m] along the axis
+  Axis axis = Axis::kZ;
 };
 
 /// A solid body of any form, held at two flat faces that look away from each other; made
@@ -248,6 +253,7 @@ struct Scene {
   Grasp start;
   std::optional<Goal> goal;
   std::optional<CalibrationRecord> calibration;
+  std::optional<Uncertainty> uncertainty;
 };
 
 /// One thing that is wrong: which field (dotted path as in a scene file), what its value

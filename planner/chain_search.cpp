@@ -61,6 +61,7 @@ class ChainSearch {
   }
 
   std::optional<FoundChain> run_real_pads(const PadEnvelope* envelope) {
+    if (limits_.reached()) return found_;
     const Steering steering{search_, true, envelope};
     try_nodes(steering, kSparse);
     if (!envelope && !found_ && !limits_.reached()) {

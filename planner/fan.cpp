@@ -165,7 +165,11 @@ void free_rotation(std::vector<Generator>& fan) {
 bool is_controllable(const std::vector<Generator>& fan) {
   for (const Vec3& step :
        {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(-1, -1, -1)}) {
-    if (!combine(fan, step)) return false;
+    const auto found = combine(fan, step);
+    if (!found) return false;
+    double cost = 0.0;
+    for (int i = 0; i < found->count; ++i) cost += found->amount[i];
+    if (cost > kMostCost * step.norm()) return false;
   }
   return true;
 }

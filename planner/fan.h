@@ -47,7 +47,10 @@ inline constexpr double kFreeRotationCost = 0.2;
 /// place only, and the rotation that the real pushes make is a by-product.
 void free_rotation(std::vector<Generator>& fan);
 
-/// The fan positively spans the flat space.
+/// The fan positively spans the flat space, and not too thinly: no step costs more than
+/// about `kMostCost` of its length.
 bool is_controllable(const std::vector<Generator>& fan);
+
+inline constexpr double kMostCost = 20.0;
 
 }  // namespace prehensile

@@ -10,6 +10,7 @@ namespace prehensile {
 namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kFewerPushes = 1e-9;  // of two ways that cost the same, the one of fewer
 constexpr std::size_t kMostMovesForCrossings = 40;
 constexpr std::size_t kWidestSingle = 120;  // moves that one push may replace
 
@@ -39,7 +40,8 @@ class Shortcut {
 
   /// Offers a replacement of the moves from state i to state j.
   void offer(std::size_t i, std::size_t j, const Moves& replacement) {
-    const double cost = cost_of(search_, replacement);
+    const double cost = cost_of(search_, replacement) +
+                        kFewerPushes * static_cast<double>(replacement.size());
     for (int last = -1; last < contacts_; ++last) {
       const Node& from = nodes_[index(i, last)];
       if (from.cost == kFar) continue;

@@ -27,6 +27,9 @@ struct Crossing {
   std::optional<Limit> limit;
 };
 
+/// `Instant` is the source of the rates: `PushInstant` in the pad plane,
+/// `SpatialPushInstant` in space.
+template <class Instant>
 class PushRun {
  public:
   PushRun(const Model& model, const Grasp& start, const LinearPush& push,
@@ -53,8 +56,6 @@ class PushRun {
   }
 
  private:
-  using InMode = PushInstant::InMode;
-
   static constexpr double kNever = StepControl::kNever;
 
   /// Share of the tolerance that steps may spend: errors grow after they were made.
@@ -122,7 +123,7 @@ class PushRun {
   const double psi_;
   const double reach_;  ///< [m] weight of an angle
 
-  PushInstant instant_;
+  Instant instant_;
   PathLimits limits_;
   PushRecord record_;
   StepControl control_;

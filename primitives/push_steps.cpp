@@ -4,11 +4,12 @@
 
 #include "primitives/dormand_prince.h"
 #include "primitives/push_run.h"
+#include "primitives/spatial_push_instant.h"
 
 namespace prehensile {
 namespace {
 
-using enum PushInstant::Search;
+using enum Search;
 
 /// Powers of the step length with which the errors of the methods fall.
 constexpr int kOrder = 6;
@@ -51,7 +52,8 @@ constexpr double kContraction = 0.2;
 }  // namespace
 
 /// Computes the step and its end; false if there is no motion or the error is too large.
-bool PushRun::integrate() {
+template <class Instant>
+bool PushRun<Instant>::integrate() {
   // The points of a pad that overhangs move over it, with a kink now and then.
   const bool is_smooth = whole_ || options_.friction_model == FrictionModel::kEllipsoid;
   step_.h = control_.next(s_, is_smooth ? kNever : kOverhangStep * options_.max_step);
@@ -113,7 +115,8 @@ bool PushRun::integrate() {
 /// What the step's error may be, with what its computation cannot see: a kink between
 /// the stages, which a place that no stage looked at may show, and the random size of the
 /// error where there is one.
-void PushRun::doubt_step(bool kink) {
+template <class Instant>
+void PushRun<Instant>::doubt_step(bool kink) {
   if (kink || !step_.is_smooth) step_error_ *= kDoubtOfRough;
   instant_.set_aside();
   Vec2 rate;
@@ -126,7 +129,8 @@ void PushRun::doubt_step(bool kink) {
 
 /// At the end of a step the instant is asked whether its answer is that of the mode, and
 /// no other.
-bool PushRun::rate_at_end(double s, const Vec2& q, Vec2& out) {
+template <class Instant>
+bool PushRun<Instant>::rate_at_end(double s, const Vec2& q, Vec2& out) {
   obstacle_ = instant_.solve(seat_, s, q, kAllMotions);
   if (obstacle_ || mode_margin() < -instant_.noise()) {
     // Beyond the end of the mode, if the mode says so.
@@ -144,7 +148,8 @@ bool PushRun::rate_at_end(double s, const Vec2& q, Vec2& out) {
 
 /// Rate within the contact mode, also beyond its end; where the mode alone does not tell
 /// the motion, that of the instant.
-bool PushRun::rate_in_mode(double s, const Vec2& q, Vec2& out) {
+template <class Instant>
+bool PushRun<Instant>::rate_in_mode(double s, const Vec2& q, Vec2& out) {
   const InMode found = instant_.solve_in_mode(seat_, s, q, regime_);
   if (found != InMode::kMoves) {
     obstacle_ = found == InMode::kUnheld ? kUnheldPush : instant_.solve(seat_, s, q);
@@ -154,7 +159,8 @@ bool PushRun::rate_in_mode(double s, const Vec2& q, Vec2& out) {
   return true;
 }
 
-RateDerivatives PushRun::derivatives(const BaseStep& base) {
+template <class Instant>
+RateDerivatives PushRun<Instant>::derivatives(const BaseStep& base) {
   RateDerivatives found;
   const double nudge = std::min(kNudge, 0.5 * base.h);
   Vec2 rate;
@@ -177,7 +183,8 @@ RateDerivatives PushRun::derivatives(const BaseStep& base) {
 
 /// Where a stage seemed to leave a contact mode that holds in the middle and at the end
 /// of the step, the place itself is looked at.
-void PushRun::look_inside() {
+template <class Instant>
+void PushRun<Instant>::look_inside() {
   if (least_margin_ >= -instant_.noise() || middle_margin_ < -instant_.noise() ||
       mode_margin() < -instant_.noise()) {
     return;
@@ -194,7 +201,8 @@ void PushRun::look_inside() {
 }
 
 /// What an error of the coordinates at the end of the step makes of the pose [m].
-double PushRun::length_of(const Vec2& error) const {
+template <class Instant>
+double PushRun<Instant>::length_of(const Vec2& error) const {
   const PlanarPose one = instant_.geometry().object(seat_, step_.y_end);
   const PlanarPose other = instant_.geometry().object(seat_, step_.y_end - error);
   return Vec3(one.x - other.x, one.y - other.y, reach_ * error[1]).norm();
@@ -202,7 +210,8 @@ double PushRun::length_of(const Vec2& error) const {
 
 /// Explicit steps that are kept short by stability call for a stiff method, and its steps
 /// for an explicit one where that would do as well.
-void PushRun::watch_stiffness(bool accepted) {
+template <class Instant>
+void PushRun<Instant>::watch_stiffness(bool accepted) {
   if (stiff_) {
     stiffness_seen_ = accepted && stiffness_ < kNotStiff ? stiffness_seen_ - 1 : 2;
     stiff_ = stiffness_seen_ > 0;
@@ -217,7 +226,8 @@ void PushRun::watch_stiffness(bool accepted) {
 
 /// How much of an error made before this step is there after it, by the change of rate
 /// between two states at its end. A pusher that trails the pads is unstable.
-double PushRun::growth(double share) const {
+template <class Instant>
+double PushRun<Instant>::growth(double share) const {
   const Vec2 lengths(1.0, reach_);
   const Vec2 apart = step_.probe.cwiseProduct(lengths);
   const Vec2 rate = step_.probe_rate.cwiseProduct(lengths);
@@ -226,5 +236,8 @@ double PushRun::growth(double share) const {
   const double trusted = exponent < 0.0 ? kContraction * exponent : exponent;
   return std::exp(std::clamp(trusted, -kMostGrowth, kMostGrowth));
 }
+
+template class PushRun<PushInstant>;
+template class PushRun<SpatialPushInstant>;
 
 }  // namespace prehensile

@@ -70,6 +70,9 @@ class PushInstant {
   /// Margins and rates over `speed` below this are noise of the solver.
   double noise() const { return 100.0 * options_.tolerance; }
 
+  /// Relative error of a rate: the modes are solved to rounding.
+  static constexpr double rounding() { return 1e-14; }
+
   int count() const { return count_; }
   int checks() const { return checks_; }
 

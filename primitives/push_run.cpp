@@ -16,9 +16,6 @@ constexpr double kLeastRide = 0.5;
 /// Spacing over that spacing of the search for other motions where the pusher recedes.
 constexpr double kProbeSpacing = 4.0;
 
-/// Share of its length by which a step that is to end at an event goes beyond it.
-constexpr double kBeyond = 0.02;
-
 }  // namespace
 
 template <class Instant>
@@ -121,7 +118,7 @@ void PushRun<Instant>::accept(double share) {
   const bool whole = share == 1.0;
   const Vec2 q = whole ? step_.y_end : step_.at(share);
   if (!rides()) {
-    const double noise = kRounding * instant_.speed() * step_.h;
+    const double noise = instant_.rounding() * instant_.speed() * step_.h;
     error_ = error_ * growth(share) + noise +
              (whole ? step_error_ : step_error_ * share + inside_error_);
     record_.add_slip(std::abs(q[0] - q_[0]));

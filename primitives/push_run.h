@@ -71,11 +71,11 @@ class PushRun {
     return std::min(1.0, (is_smooth ? 20.0 : 10.0) * options.max_step);
   }
 
+  /// Share of its length by which a step that is to end at an event goes beyond it.
+  static constexpr double kBeyond = 0.02;
+
   /// So often may a regime be left at once for the one before.
   static constexpr int kMostReturns = 32;
-
-  /// Relative error of a rate: the modes are solved to rounding.
-  static constexpr double kRounding = 1e-14;
 
   /// Weight of an angle for pads that cannot exert a torque, over the size of the object.
   static constexpr double kLeastReach = 0.01;
@@ -89,6 +89,7 @@ class PushRun {
   double ride_length() const;
   bool is_close(double at);
   bool integrate();
+  void land_at_kink();
   RateDerivatives derivatives(const BaseStep& base);
   bool rate_in_mode(double s, const Vec2& q, Vec2& out);
   bool rate_at_end(double s, const Vec2& q, Vec2& out);

@@ -51,6 +51,16 @@ constexpr double kContraction = 0.2;
 
 }  // namespace
 
+/// A step that was refused because rates have a kink at the end of the contact mode: the
+/// next one shall end there.
+template <class Instant>
+void PushRun<Instant>::land_at_kink() {
+  if (Instant::kSmoothBeyondMode || !(least_margin_ < -instant_.noise())) return;
+  if (!(margin_ > 0.0)) return;
+  const double share = margin_ / (margin_ - least_margin_);
+  control_.land((1.0 + kBeyond) * share * (least_at_ - s_));
+}
+
 /// Computes the step and its end; false if there is no motion or the error is too large.
 template <class Instant>
 bool PushRun<Instant>::integrate() {
@@ -100,13 +110,17 @@ bool PushRun<Instant>::integrate() {
   }
   if (step_.gave_up) {
     (void)control_.accepts(step_.h, length_of(step_.error) / kHopelessIsMore, kOrder);
+    land_at_kink();
     return false;
   }
   step_error_ = (step_.is_smooth ? kDoubt : kRoughness) * length_of(step_.error);
   const bool accepted =
       control_.accepts(step_.h, step_error_, stiff_ ? kStiffOrder : kOrder);
   watch_stiffness(accepted);
-  if (!accepted) return false;
+  if (!accepted) {
+    land_at_kink();
+    return false;
+  }
   doubt_step(low_pivot != high_pivot);
   look_inside();
   return true;
@@ -220,7 +234,10 @@ void PushRun<Instant>::watch_stiffness(bool accepted) {
   const Vec2 lengths(1.0, reach_);
   const double apart = step_.probe.cwiseProduct(lengths).norm();
   const double change = 0.5 * step_.h * step_.probe_rate.cwiseProduct(lengths).norm();
-  stiffness_seen_ = change > kStiff * apart ? stiffness_seen_ + 1 : 0;
+  const double noise = Instant::kSmoothBeyondMode
+                           ? 0.0
+                           : 1e3 * instant_.rounding() * instant_.speed() * step_.h;
+  stiffness_seen_ = change > kStiff * apart && apart >= noise ? stiffness_seen_ + 1 : 0;
   stiff_ = stiffness_seen_ >= 2;
 }
 
@@ -231,7 +248,7 @@ double PushRun<Instant>::growth(double share) const {
   const Vec2 lengths(1.0, reach_);
   const Vec2 apart = step_.probe.cwiseProduct(lengths);
   const Vec2 rate = step_.probe_rate.cwiseProduct(lengths);
-  if (!(apart.norm() > 1e3 * kRounding * instant_.speed() * step_.h)) return 1.0;
+  if (!(apart.norm() > 1e3 * instant_.rounding() * instant_.speed() * step_.h)) return 1.0;
   const double exponent = share * step_.h * apart.dot(rate) / apart.squaredNorm();
   const double trusted = exponent < 0.0 ? kContraction * exponent : exponent;
   return std::exp(std::clamp(trusted, -kMostGrowth, kMostGrowth));

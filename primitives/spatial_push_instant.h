@@ -59,6 +59,7 @@ class SpatialPushInstant {
   PlanarPose pose(const Seat& seat, double s, const Vec2& q) const;
   double speed() const { return scales_.speed; }
   double noise() const { return 100.0 * options_.tolerance; }
+  double rounding() const { return options_.tolerance; }
   int count() const { return count_; }
   int checks() const { return 0; }
 

@@ -45,7 +45,7 @@ int run(const Options& options) {
   std::signal(SIGTERM, request_stop);
 
   const Model model = prepare(file.scene);
-  note_pad_plane(model);
+  note_pad_plane(model, "searched in the pad plane; every push is then checked in space");
   const Plan plan = plan_regrasp(model, plan_options);
   const std::string json = plan_to_json({file.scene, file.digest, plan});
   write_atomically(options.output, json);

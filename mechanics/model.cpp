@@ -102,8 +102,8 @@ void explain_level(const Scene& scene, Model& model) {
          "and theta free"});
   } else {
     model.decisions.push_back(
-        {"known loads of the pads (instants are spatial, plans are made in the pad "
-         "plane)",
+        {"known loads of the pads (instants and pushes are solved in space, plans are "
+         "searched in the pad plane)",
          std::move(why)});
   }
   if (model.jaw_force[0] + model.jaw_force[1] == 0.0 && scene.gripper.grip_force > 0.0) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "planner/roll_step.h"
+#include "planner/space_margin.h"
 
 namespace prehensile {
 namespace {
@@ -71,7 +72,8 @@ bool check_exactly(const Model& model, const TransitionOptions& options, Plan& p
     push.certificate = done.worst_certificate;
     push.error_estimate = done.error_estimate;
     push.slack = push_slack(model, push.start, push.push, plan.margin);
-    const std::string fault = fault_of(push, done, options);
+    std::string fault = fault_of(push, done, options);
+    if (fault.empty()) fault = space_margin_fault(model, push, plan.margin, options);
     if (fault.empty()) continue;
     if (why) *why = "push " + std::to_string(i + 1) + ": " + fault;
     return false;

@@ -248,7 +248,8 @@ double PushRun<Instant>::growth(double share) const {
   const Vec2 lengths(1.0, reach_);
   const Vec2 apart = step_.probe.cwiseProduct(lengths);
   const Vec2 rate = step_.probe_rate.cwiseProduct(lengths);
-  if (!(apart.norm() > 1e3 * instant_.rounding() * instant_.speed() * step_.h)) return 1.0;
+  if (!(apart.norm() > 1e3 * instant_.rounding() * instant_.speed() * step_.h))
+    return 1.0;
   const double exponent = share * step_.h * apart.dot(rate) / apart.squaredNorm();
   const double trusted = exponent < 0.0 ? kContraction * exponent : exponent;
   return std::exp(std::clamp(trusted, -kMostGrowth, kMostGrowth));

@@ -1,5 +1,6 @@
 /// Convergence and honesty of the error estimate of pushes in space.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <ctime>
 
@@ -84,7 +85,48 @@ void expect_honest(const Honesty& found, int count) {
 
 TEST(SpatialPushEstimate, IsHonest) { expect_honest(honesty(31, 0, 40), 40); }
 
-TEST(SpatialPushEstimateFull, IsHonest) { expect_honest(honesty(32, 0, 1200), 1200); }
+class SpatialPushEstimateFull : public ::testing::TestWithParam<int> {};
+
+TEST_P(SpatialPushEstimateFull, IsHonest) {
+  expect_honest(honesty(32, 250 * GetParam(), 250), 250);
+}
+INSTANTIATE_TEST_SUITE_P(Quarters, SpatialPushEstimateFull, ::testing::Range(0, 4));
+
+// Pushes of 40 mm on boxes large enough for them.
+TEST(SpatialPushTimeFull, FortyMillimetres) {
+  constexpr int kPushes = 300;
+  std::printf("points  completed  instants med/p95  us med/p95; rides: the same\n");
+  for (const int points : {4, 8, 16}) {
+    std::array<std::vector<double>, 2> instants, times;
+    int completed = 0;
+    for (int index = 0; index < kPushes; ++index) {
+      RandomPush c = random_spatial_push(41, index);
+      auto& box = std::get<BoxShape>(c.scene.object.shape);
+      box.size.x() = box.size.y() = 0.16;
+      c.push.travel = 0.04;
+      const Model model = prepare(c.scene, {.points_per_pad = points});
+      const std::clock_t start = std::clock();
+      const Transition t = apply(model, c.scene.start, c.push);
+      const double time = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+      if (!t.completed()) continue;
+      ++completed;
+      const bool rides =
+          t.event_count == 0 && t.slipped == 0.0 && !model.contacts[0].is_point;
+      instants[rides ? 1 : 0].push_back(t.instants);
+      times[rides ? 1 : 0].push_back(1e6 * time);
+    }
+    EXPECT_GT(completed, kPushes / 2);
+    std::printf("%6d  %9d", points, completed);
+    for (const int kind : {0, 1}) {
+      ASSERT_FALSE(instants[kind].empty());
+      std::printf("  %.0f/%.0f  %.0f/%.0f", quantile(instants[kind], 0.5),
+                  quantile(instants[kind], 0.95), quantile(times[kind], 0.5),
+                  quantile(times[kind], 0.95));
+    }
+    std::printf("\n");
+    EXPECT_LT(quantile(instants[0], 0.5), 100.0);
+  }
+}
 
 // Steps of half the length, and of half that: the end of the push settles at a pace that
 // the tolerance sets.

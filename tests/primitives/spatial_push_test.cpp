@@ -127,7 +127,7 @@ TEST(SpatialPush, NoGripHoldsNothing) {
 // certified, and nothing ends without a reason.
 TEST(SpatialPush, ExtremeFrictionIsCertifiedOrRefused) {
   int done = 0;
-  for (int seed = 0; seed < 20; ++seed) {
+  for (int seed = 0; seed < 12; ++seed) {
     for (const double mu : {0.0, 1000.0}) {
       RandomPush c = random_spatial_push(27, seed);
       if (seed % 3 != 0) c.scene.pushers[0].friction = mu;
@@ -141,7 +141,7 @@ TEST(SpatialPush, ExtremeFrictionIsCertifiedOrRefused) {
       done += t.completed() ? 1 : 0;
     }
   }
-  EXPECT_GT(done, 12);
+  EXPECT_GT(done, 7);
 }
 
 // Pads that leave the face partly are clipped, and their loads drawn anew, on the way.

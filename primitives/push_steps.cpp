@@ -1,6 +1,7 @@
 /// Steps of a push that is integrated.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "primitives/dormand_prince.h"
 #include "primitives/push_run.h"
@@ -68,7 +69,8 @@ bool PushRun<Instant>::integrate() {
   const bool is_smooth = whole_ || options_.friction_model == FrictionModel::kEllipsoid;
   step_.h = control_.next(s_, is_smooth ? kNever : kOverhangStep * options_.max_step);
   const double middle = s_ + 0.5 * step_.h;
-  int low_pivot = 99, high_pivot = -2;
+  int low_pivot = std::numeric_limits<int>::max();
+  int high_pivot = -2;
   least_margin_ = dip_at_ = kNever;
   const auto rate = [this, middle, &low_pivot, &high_pivot](double s, const Vec2& q,
                                                             Vec2& out) {

@@ -25,6 +25,23 @@ constexpr double kStraightRide = 2.0;
 
 bool is_pad(const ContactPatch& patch) { return patch.body != ContactBody::kPusher; }
 
+/// A number that changes when a point of a pad gains or loses its load, or one of the
+/// pusher its grip.
+int pattern_of(const SpatialProblem& problem, const SpatialInstant& instant) {
+  int pattern = 0;
+  for (int k = 0; k < problem.patch_count; ++k) {
+    const ContactPatch& patch = problem.patch[k];
+    for (int i = patch.first; i < patch.first + patch.count; ++i) {
+      const ContactMode mode = instant.point[i].mode;
+      if (mode != ContactMode::kOpen) ++pattern;
+      if (!is_pad(patch) && mode == ContactMode::kSlip) {
+        pattern += SpatialProblem::kMaxPoints;
+      }
+    }
+  }
+  return pattern;
+}
+
 /// Velocity of the object along the closing direction at a point of it.
 double rate_across(const SpatialTwist& V, double x, double y) {
   return V[2] + V[3] * y - V[4] * x;
@@ -111,6 +128,7 @@ Obstacle SpatialPushInstant::ask(Answer& now) noexcept {
   if (const Obstacle obstacle = obstacle_of(now.instant.status)) return obstacle;
   read(now);
   now.out_of_plane = leaves_plane(now);
+  now.pattern = pattern_of(now.problem, now.instant);
   if (now.out_of_plane <= 1.0) return {};
   return {kLeavesPlane, EventKind::kOutOfPlane, way_out(now)};
 }

@@ -45,7 +45,10 @@ class SpatialPushInstant {
   void set_aside() { now_ = 1 - now_; }
   void bring_back() { now_ = 1 - now_; }
   bool is_solved() const { return !answer().obstacle; }
-  int pivot() const { return -1; }
+
+  /// Points that carry load, and how the pusher's do: the rate has a kink where that
+  /// changes.
+  int pivot() const { return answer().pattern; }
 
   Vec2 rate() const { return {answer().slip_beyond_yield, answer().contact.tilt_rate}; }
   ModeMargin margin(const Seat& seat, Regime regime) const {
@@ -78,6 +81,7 @@ class SpatialPushInstant {
     ContactReading contact;
     double slip_beyond_yield = 0.0;  ///< [m] per unit of s
     double out_of_plane = 0.0;       ///< share of what ends the push
+    int pattern = -1;
   };
   const Answer& answer() const { return answers_[now_]; }
   void pose_question(const Seat& seat, double s, const Vec2& q) noexcept;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <vector>
@@ -104,8 +105,9 @@ nlohmann::ordered_json to_json(const Transition& transition,
                    {"normal_force", number(s.normal_force)},
                    {"tangential_force", number(s.tangential_force)},
                    {"slip", number(s.slip_rate)},
-                   {"status", std::string(name(s.status))},
-                   {"certificate", number(s.certificate)}});
+                   {"status", std::string(name(s.status))}});
+    if (std::isfinite(s.opening)) sample["opening"] = s.opening;
+    sample.update({{"certificate", number(s.certificate)}});
     if (transition.in_space) {
       sample.update({{"jaw_force", {number(s.jaw_force[0]), number(s.jaw_force[1])}},
                      {"moment_across", number(s.moment_across)},

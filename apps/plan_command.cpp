@@ -82,7 +82,7 @@ int run(const Options& options) {
   std::signal(SIGTERM, request_stop);
 
   const Model model = prepare(file.scene);
-  note_pad_plane(model);
+  note_pad_plane(model, "searched in the pad plane; every push is then checked in space");
   const PlanFile written{file.scene, file.digest, planned(options, model)};
   const Plan& plan = written.plan;
   const std::string json = plan_to_json(written);

@@ -27,6 +27,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options);
 
 Command add_plan(CLI::App& app);
 Command add_check(CLI::App& app);
+Command add_calibrate(CLI::App& app);
 Command add_query_instant(CLI::App& query);
 Command add_query_push(CLI::App& query);
 Command add_query_sweep(CLI::App& query);

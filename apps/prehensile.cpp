@@ -37,6 +37,7 @@ int run(int argc, char** argv) {
 
   const Command plan = add_plan(app);
   const Command check = add_check(app);
+  const Command calibrate = add_calibrate(app);
   const Command instant = add_query_instant(query);
   const Command push = add_query_push(query);
   const Command sweep = add_query_sweep(query);
@@ -49,6 +50,7 @@ int run(int argc, char** argv) {
   std::vector<std::pair<const CLI::App*, Command>> commands = {
       {app.get_subcommand("plan"), plan},
       {app.get_subcommand("check"), check},
+      {app.get_subcommand("calibrate"), calibrate},
       {query.get_subcommand("instant"), instant},
       {query.get_subcommand("push"), push},
       {query.get_subcommand("sweep"), sweep},

@@ -16,6 +16,7 @@
 #include "planner/frame.h"
 #include "planner/push_search.h"
 #include "planner/replay.h"
+#include "primitives/uncertainty.h"
 #include "problems/published_regrasps.h"
 #include "problems/random_regrasps.h"
 
@@ -28,6 +29,7 @@ struct Options {
   int problems = 0;     // of each kind; 0: all
   int seeds = 3;
   int time_ms = 1000;
+  std::string plans = "robust";  // or nominal: without a margin
   const char* file = nullptr;
 };
 
@@ -85,7 +87,9 @@ Run run_planner(const Scene& scene, const std::string& planner, std::uint64_t se
   if (!is_own(planner)) wanted.time_limit = 1e-3 * options.time_ms;
   Run run{.problem = scene.name, .planner = planner, .seed = seed};
   const int batches = is_own(planner) ? 3 : 1;
-  const SearchModel search = prepare_search(model, wanted.margin);
+  wanted.margin =
+      options.plans == "nominal" ? Margin::none() : margin_of(model, usual_box());
+  const SearchModel search = prepare_search(model, *wanted.margin);
   run.search_seconds = 1e-6 * time_us([&] { search_only(search, wanted); }, batches);
   run.plan = plan_regrasp(model, wanted);
   run.replays = run.plan.usable() && replay(model, run.plan).agrees;
@@ -169,6 +173,7 @@ bool read_options(int count, char** arguments, Options& options) {
                       {{"-o", &options.file},
                        {"--set", &options.set},
                        {"--planner", &options.planner},
+                       {"--plans", &options.plans},
                        {"--problems", &options.problems},
                        {"--seeds", &options.seeds},
                        {"--time-ms", &options.time_ms}},
@@ -177,7 +182,8 @@ bool read_options(int count, char** arguments, Options& options) {
                         options.seeds = 1;
                         options.time_ms = 200;
                       }) &&
-         (options.set == "published" || options.set == "constructed");
+         (options.set == "published" || options.set == "constructed") &&
+         (options.plans == "robust" || options.plans == "nominal");
 }
 
 std::vector<std::string> wanted_planners(const Options& options) {
@@ -195,6 +201,7 @@ int run(int count, char** arguments) {
   if (!readable || planners.empty()) {
     std::fputs(
         "usage: bench_planner [--quick] [--set published|constructed] [--planner NAME]\n"
+        "                     [--plans robust|nominal]\n"
         "                     [--problems N] [--seeds N] [--time-ms N] [-o FILE]\n",
         stderr);
     return 2;

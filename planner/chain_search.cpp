@@ -50,13 +50,13 @@ class ChainSearch {
       try_nodes(steering, kCoarse);
       if (good_enough() || limits_.reached()) return found_;
     }
-    if (found_) return found_;
+    if (is_enough()) return found_;
     if (!search_.exact_everywhere) try_measured();
     for (const Steering& steering : steering_) {
-      if (found_ || limits_.reached()) return found_;
+      if (is_enough() || limits_.reached()) return found_;
       try_labels(steering, kCoarse);
     }
-    if (!found_ && !limits_.reached()) try_labels(steering_.back(), kFine);
+    if (!is_enough() && !limits_.reached()) try_labels(steering_.back(), kFine);
     return found_;
   }
 
@@ -65,9 +65,13 @@ class ChainSearch {
     return found_ && found_->chain.cost <= kGoodEnough * bound_;
   }
 
+  /// Any plan is enough unless better ones are wanted.
+  bool is_enough() const { return found_ && (!limits_.improves() || good_enough()); }
+
   void keep(std::optional<FoundChain> found) {
     if (found && (!found_ || found->chain.cost < found_->chain.cost)) {
       found_ = std::move(found);
+      if (work_.meter) work_.meter->found(found_->chain.cost);
     }
   }
 
@@ -117,12 +121,12 @@ class ChainSearch {
   void try_measured() {
     const Steering steering{search_, true};
     try_nodes(steering, kSparse);
-    if (!found_ && !limits_.reached()) try_labels(steering, kSparse);
+    if (!is_enough() && !limits_.reached()) try_labels(steering, kSparse);
   }
 
   void try_labels(const Steering& steering, const Fineness& fineness) {
-    keep(search_labels(steering, search_, nodes(fineness), start_, goals_, limits_,
-                       work_));
+    keep(search_labels(steering, search_, nodes(fineness), start_, goals_, limits_, work_,
+                       found_));
   }
 
   const SearchModel& search_;

@@ -14,6 +14,13 @@ namespace prehensile {
 double push_slack(const Model& model, const Grasp& start, const Push& push,
                   const Margin& margin);
 
+/// Whether the pads stay on the object during the pushes of a plan over its margin, as
+/// far as its start and its goal allow; also says which push does not.
+bool stays_on_object(const Model& model, const Plan& plan, std::string* why);
+
+/// Path of the finger axis in the object [m]; 0 for a roll.
+double travel_in_pad_plane(const Push& push);
+
 /// Fills force, slack, certificate and error estimate of every push and counts instants.
 /// True if each push completes without slip, certified, with slack >= 0 over plan.margin,
 /// and ends within 1e-6 of where the plan says; else `why` names the first that does not.

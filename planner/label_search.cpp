@@ -38,7 +38,8 @@ class LabelSearch {
  public:
   LabelSearch(const Steering& steering, const SearchModel& search,
               const std::vector<Vec2>& nodes, const FlatState& start,
-              const GoalPlaces& goals, const Limits& limits, Work& work)
+              const GoalPlaces& goals, const Limits& limits, Work& work,
+              const std::optional<FoundChain>& known)
       : steering_(steering),
         search_(search),
         nodes_(nodes),
@@ -46,7 +47,8 @@ class LabelSearch {
         goals_(goals),
         limits_(limits),
         work_(work),
-        contacts_(static_cast<int>(search.contacts.size())) {
+        contacts_(static_cast<int>(search.contacts.size())),
+        best_(known) {
     nodes_.push_back(start.p_OF);
     rows_.resize(nodes_.size() * contacts_);
     row_known_.resize(nodes_.size() * contacts_, 0);
@@ -202,7 +204,10 @@ class LabelSearch {
                stop_at(label.node), work_, scratch_.legs[label.depth - 1]);
     }
     const double dtheta = goals_.places[place].theta[angle] - start_.theta;
-    if (!solve_chain(search_, dtheta, scratch_)) return;
+    if (!solve_chain(search_, dtheta, scratch_)) {
+      work_.obstacles.add(Obstacle::kRotation);
+      return;
+    }
     if (best_ && scratch_.cost >= best_->chain.cost) return;
     ++checks_;
     if (!make_chain_stick(search_, start_.theta, dtheta, scratch_, work_)) {
@@ -210,6 +215,7 @@ class LabelSearch {
     }
     if (best_ && scratch_.cost >= best_->chain.cost) return;
     best_ = {scratch_, place, angle};
+    if (work_.meter) work_.meter->found(scratch_.cost);
   }
 
   const Steering& steering_;
@@ -237,8 +243,9 @@ std::optional<FoundChain> search_labels(const Steering& steering,
                                         const SearchModel& search,
                                         const std::vector<Vec2>& nodes,
                                         const FlatState& start, const GoalPlaces& goals,
-                                        const Limits& limits, Work& work) {
-  return LabelSearch(steering, search, nodes, start, goals, limits, work).run();
+                                        const Limits& limits, Work& work,
+                                        const std::optional<FoundChain>& known) {
+  return LabelSearch(steering, search, nodes, start, goals, limits, work, known).run();
 }
 
 }  // namespace prehensile

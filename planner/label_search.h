@@ -22,12 +22,13 @@ struct FoundChain {
 };
 
 /// The cheapest chain found that `steering` proposes and whose pushes stick with the real
-/// pad over the margin of `search`; none if the search runs dry or a limit is reached
-/// before. Both are of the same model.
+/// pad over the margin of `search`, if it is cheaper than `known`, else that one; none if
+/// the search runs dry or a limit is reached before. Both are of the same model.
 std::optional<FoundChain> search_labels(const Steering& steering,
                                         const SearchModel& search,
                                         const std::vector<Vec2>& nodes,
                                         const FlatState& start, const GoalPlaces& goals,
-                                        const Limits& limits, Work& work);
+                                        const Limits& limits, Work& work,
+                                        const std::optional<FoundChain>& known = {});
 
 }  // namespace prehensile

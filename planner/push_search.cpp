@@ -24,6 +24,9 @@ std::optional<Move> best_contact(const SearchModel& search, const FlatState& fro
   for (std::size_t i = 0; i < search.contacts.size(); ++i) {
     const Move move{static_cast<int>(i), from, to};
     const double slack = exact_slack(search, move, work);
+    if (!(slack >= -kStickTolerance)) {
+      work.obstacles.add(obstacle_of(search.contacts[i], from.p_OF, to.p_OF));
+    }
     if (!(slack > best_slack) || !pads_hold_gravity(search, move)) continue;
     best_slack = slack;
     best = move;
@@ -51,6 +54,7 @@ bool plan_in_plane(const SearchModel& search, const Grasp& start, const Goal& go
     return true;
   }
   const double bound = lower_bound(*search.model, start, goal);
+  if (work.meter) work.meter->bound(bound);
   const auto found = search_chains(search, from, goals, bound, limits, work);
   if (!found) return false;
   append_chain(search, from, found->chain, plan);
@@ -62,8 +66,9 @@ void say_undecided(const Limits& limits, Plan& plan) {
   plan.message =
       limits.stopped()       ? "stopped before a plan was found"
       : limits.out_of_time() ? "no plan found within the time limit"
-      : limits.reached()
-          ? "no plan found within the work budget"
+      : limits.reached()     ? "no plan found within the work budget"
+      : plan.margin.is_none()
+          ? "every stage of the search ended without a plan"
           : "every stage of the search ended without a plan within the margin; a "
             "smaller margin may admit one";
 }
@@ -81,7 +86,8 @@ std::optional<Move> direct_push(const SearchModel& search, const FlatState& star
       const FlatState end{place.p_OF, place.theta[j]};
       const double distance = flat_distance(search, start, end);
       if (distance >= best_distance) continue;
-      on_object = on_object || segment_on_object(*search.model, start.p_OF, place.p_OF);
+      on_object = on_object || path_on_object(*search.model, {start.p_OF, true},
+                                              {place.p_OF, true}, search.margin);
       if (!on_object) break;
       if (const auto move = best_contact(search, start, end, work)) {
         best = move;

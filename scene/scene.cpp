@@ -337,6 +337,25 @@ void check_goal(Checker& checker, const Goal& goal, bool rolls) {
                    kLongest, "m");
 }
 
+void check_calibration(Checker& checker, const CalibrationRecord& record) {
+  const std::string field = "calibration.";
+  checker.place(field + "registration", record.registration);
+  checker.in_range(field + "friction", record.friction, 0.0, 1.0, "");
+  checker.in_range(field + "finger_friction", record.finger_friction, 0.0, 1.0, "");
+  checker.in_range(field + "torque_radius", record.torque_radius, 0.0, 1.0, "");
+  checker.in_range(field + "place", record.place, 0.0, 1.0, "m");
+  checker.in_range(field + "scatter", record.scatter, 0.0, 1.0, "m");
+  checker.in_range(field + "scatter_angle", record.scatter_angle, 0.0, 4.0, "rad");
+  for (const auto* factors : {&record.factors_50, &record.factors_90}) {
+    if (!*factors) continue;
+    for (const double factor : **factors) {
+      checker.in_range(
+          field + (factors == &record.factors_50 ? "factors_50" : "factors_90"), factor,
+          0.0, 1e3, "");
+    }
+  }
+}
+
 void check_start_is_held(Checker& checker, const Scene& scene) {
   const std::vector<Vec2> face = pad_face_of(scene.object.shape);
   const Vec2 p_OF = finger_in_object(scene.start.X_HO);
@@ -355,26 +374,6 @@ bool can_roll(const Object& object) {
   return cylinder && cylinder->axis != Axis::kZ;
 }
 
-std::optional<double> length_in_plane(const PusherFeature& feature) {
-  if (const auto* line = std::get_if<LineFeature>(&feature)) {
-    return line->length.value_or(kInfinity);
-  }
-  if (const auto* plane = std::get_if<PlaneFeature>(&feature)) {
-    return plane->length.value_or(kInfinity);
-  }
-  return std::nullopt;
-}
-
-double width_across_plane(const PusherFeature& feature) {
-  if (const auto* upright = std::get_if<UprightFeature>(&feature)) {
-    return upright->length.value_or(kInfinity);
-  }
-  if (const auto* plane = std::get_if<PlaneFeature>(&feature)) {
-    return plane->width.value_or(kInfinity);
-  }
-  return 0.0;
-}
-
 std::vector<Fault> check(const Scene& scene) {
   Checker checker;
   const bool rolls = can_roll(scene.object);
@@ -391,6 +390,12 @@ std::vector<Fault> check(const Scene& scene) {
         "the object cannot roll: expected only for a cylinder held on its curved side");
   }
   if (scene.goal) check_goal(checker, *scene.goal, rolls);
+  if (scene.calibration) check_calibration(checker, *scene.calibration);
+  if (scene.uncertainty) {
+    for (const UncertaintyWidth& w : widths_of(*scene.uncertainty)) {
+      checker.in_range("uncertainty." + w.field, w.value, w.least, w.most, w.unit);
+    }
+  }
   if (checker.clean()) check_start_is_held(checker, scene);
   return checker.take();
 }

@@ -6,12 +6,14 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "scene/frames.h"
+#include "scene/uncertainty.h"
 
 namespace prehensile {
 
@@ -222,6 +224,23 @@ struct Goal {
   GoalTest test = GoalTest::kPerCoordinate;
 };
 
+/// What measurements said about a set-up, beside the values that they changed: written by
+/// `prehensile calibrate`, used by `query spread`.
+struct CalibrationRecord {
+  std::string data;          ///< where the measurements are from
+  std::uint64_t pushes = 0;  ///< how many, or readings
+  /// [m] in H: true place of a pusher minus measured place.
+  Vec2 registration = Vec2::Zero();
+  /// Half widths of what stayed uncertain, 90 %: as shares, 0..1.
+  double friction = 0.0, finger_friction = 0.0, torque_radius = 0.0;
+  double place = 0.0;  ///< [m] of a pusher along the face and towards it, >= 0
+  /// What no parameter explains of where pushes end, measurement included: [m] and [rad].
+  double scatter = 0.0, scatter_angle = 0.0;
+  /// Factors on intervals of the end pose of a push (normal, tangential, angle) that made
+  /// them cover 50 and 90 % of measured pushes; unset: too few were measured.
+  std::optional<Vec3> factors_50, factors_90;
+};
+
 struct Scene {
   std::string name = "scene";
   std::string origin;  ///< where the numbers come from, for people
@@ -233,6 +252,8 @@ struct Scene {
   Overhang overhang = Overhang::kClip;
   Grasp start;
   std::optional<Goal> goal;
+  std::optional<CalibrationRecord> calibration;
+  std::optional<Uncertainty> uncertainty;
 };
 
 /// One thing that is wrong: which field (dotted path as in a scene file), what its value

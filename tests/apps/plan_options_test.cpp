@@ -112,6 +112,11 @@ TEST(PlanOptions, ArmFilesAreWrittenByExtension) {
   const Outcome bad = planned(folder, kScene + " --arm arm.xml");
   EXPECT_EQ(bad.exit_code, 2);
   EXPECT_NE(bad.err.find(".csv, .tum or .yaml"), std::string::npos) << bad.err;
+  const std::string slow =
+      kScene + " --push-speed-mm-s 0.001 --arm " + folder.path("slow.csv").string();
+  const Outcome endless = planned(folder, slow);
+  EXPECT_EQ(endless.exit_code, 2);
+  EXPECT_NE(endless.err.find("--arm-rate-hz"), std::string::npos) << endless.err;
   const std::string none = folder.path("none.csv").string();
   EXPECT_EQ(planned(folder, kScene + " --set goal.x=0.3 --arm " + none).exit_code, 1);
   EXPECT_EQ(read_text(none), "");

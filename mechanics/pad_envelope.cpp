@@ -87,19 +87,24 @@ KappaSet PadEnvelope::kappas(const StickContact& contact, const Vec2& from,
   int count = 0;
   const double mu = contact.mu * std::max(0.0, 1.0 - margin_.friction);
   const auto add_edge = [&](const Vec2& edge) {
+    const double turned =
+        margin_.tilt * (std::abs(edge.dot(o)) +
+                        (1.0 + margin_.force) * std::abs(cross(edge, contact.gamma)));
     rows[count++] = {edge.dot(e), std::abs(edge.dot(o)), 0.0,
-                     worst(edge.dot(contact.gamma), margin_.force)};
+                     worst(edge.dot(contact.gamma), margin_.force) + turned};
   };
   add_edge(mu * contact.n + contact.t);
   add_edge(mu * contact.n - contact.t);
   if (mu == 0.0) add_edge(contact.n);
-  const double shift = margin.centre_of_mass * contact.gamma.norm();
+  // Friction is at most 1 in F, whatever the place of the finger axis.
+  const double shift = margin.centre_of_mass * contact.gamma.norm() + margin.grasp;
   const auto add_end = [&](const Vec2& end, double side) {
     const double across =
         std::max(std::abs(cross(from - end, o)), std::abs(cross(to - end, o)));
+    const double lever = std::abs((contact.p_OCom - end).dot(contact.gamma));
     const double right = shift + side * cross(contact.p_OCom - end, contact.gamma);
     rows[count++] = {side * cross(from - end, e) / c_, across / c_, side,
-                     worst(right, margin.force) / c_};
+                     (worst(right, margin.force) + margin.tilt * (across + lever)) / c_};
   };
   add_end(a, -1.0);
   add_end(b, 1.0);

@@ -85,7 +85,7 @@ void set_factors(const Options& options, const Scene& scene, SpreadReport& repor
     if (own) {
       take(*own, text("calibrated on %llu pushes of this set-up (",
                       static_cast<unsigned long long>(scene.calibration->pushes)) +
-                     scene.calibration->data + ")");
+                     scene.calibration->data + "), for pushes like them");
       return;
     }
   }
@@ -101,7 +101,6 @@ int run(const Options& options) {
   const SceneFile file = read_scene(options.scene.file, options.scene.overrides);
   const Model model = prepare(file.scene, {.points_per_pad = options.path.points});
   const int contact = chosen_contact(model, options.push);
-  note_pad_plane(model);
   const Grasp grasp = chosen_grasp(model, options.push);
   const Push push = chosen_push(model, contact, options.push, options.path);
   SpreadReport report;

@@ -140,11 +140,26 @@ TEST(SceneFile, RandomScenesReturnUnchanged) {
     if (scene.goal) {
       EXPECT_EQ(file.scene.goal->theta, scene.goal->theta);
     }
+    EXPECT_EQ(file.scene.uncertainty, scene.uncertainty);
     for (std::size_t k = 0; k < scene.pushers.size(); ++k) {
       EXPECT_EQ(file.scene.pushers[k].normal_angle, scene.pushers[k].normal_angle);
       EXPECT_EQ(file.scene.pushers[k].name, scene.pushers[k].name);
     }
   }
+}
+
+TEST(SceneFile, UncertaintyIsWrittenOnlyIfStated) {
+  Scene scene = parse_scene(kShortest, "shortest").scene;
+  EXPECT_EQ(scene_to_yaml(scene).find("uncertainty"), std::string::npos);
+  scene.uncertainty = Uncertainty{.friction = 0.2};
+  EXPECT_NE(scene_to_yaml(scene).find("uncertainty"), std::string::npos);
+  scene.uncertainty->mass = 0.95;
+  ASSERT_EQ(check(scene).size(), 1u);
+  EXPECT_EQ(check(scene)[0].field, "uncertainty.mass");
+  EXPECT_THROW(parse_scene(kShortest, "shortest", {"uncertainty={friction: -0.1}"}),
+               BadInput);
+  EXPECT_THROW(parse_scene(kShortest, "shortest", {"uncertainty={fricton: 0.1}"}),
+               BadInput);
 }
 
 TEST(SceneFile, WholeDegreesReturnAsWholeDegrees) {

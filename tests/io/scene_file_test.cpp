@@ -100,6 +100,29 @@ TEST(SceneFile, EveryFieldIsRead) {
   EXPECT_EQ(scene.goal->test, GoalTest::kWeightedSum);
 }
 
+// The axis of a prism is written only where it lies, so that files and digests of
+// standing ones are what they always were.
+TEST(SceneFile, AxisOfAPrism) {
+  const std::string lying =
+      "version: 1\n"
+      "object:\n"
+      "  prism: {outline: [[-0.01, -0.01], [0.01, -0.01], [0.01, 0.01], [-0.01, 0.01]],\n"
+      "          thickness: 0.1, axis: y}\n"
+      "  mass: 0.2\n"
+      "gripper: {pad: {disc: {radius: 0.009}}, friction: 0.5, grip_force: 20}\n";
+  for (const Axis axis : {Axis::kX, Axis::kY, Axis::kZ}) {
+    Scene scene = parse_scene(lying, "lying").scene;
+    auto& prism = std::get<PrismShape>(scene.object.shape);
+    EXPECT_EQ(prism.axis, Axis::kY);
+    prism.axis = axis;
+    const std::string text = scene_to_yaml(scene);
+    EXPECT_EQ(text.find("axis") == std::string::npos, axis == Axis::kZ) << text;
+    const Scene again = parse_scene(text, "again").scene;
+    EXPECT_EQ(std::get<PrismShape>(again.object.shape).axis, axis);
+    EXPECT_EQ(scene_to_yaml(again), text);
+  }
+}
+
 TEST(SceneFile, RandomScenesReturnUnchanged) {
   Random random(1);
   for (int i = 0; i < 500; ++i) {

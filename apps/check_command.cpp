@@ -88,7 +88,6 @@ nlohmann::ordered_json to_json(const Replay& replay) {
 int run(const Options& options) {
   const PlanFile file = read_plan(options.file);
   const Model model = prepare(file.scene);
-  note_pad_plane(model);
   if (!file.plan.usable()) return check_refusal(model, file, options.json);
   const Replay replayed = replay(model, file.plan);
   nlohmann::ordered_json json = to_json(replayed);

@@ -113,8 +113,8 @@ void explain_level(const Scene& scene, Model& model) {
          "and theta free"});
   } else {
     model.decisions.push_back(
-        {"known loads of the pads (instants are spatial, plans are made in the pad "
-         "plane)",
+        {"known loads of the pads (instants and pushes are solved in space, plans are "
+         "searched in the pad plane)",
          std::move(why)});
   }
   if (model.jaw_force[0] + model.jaw_force[1] == 0.0 && scene.gripper.grip_force > 0.0) {
@@ -206,6 +206,8 @@ Model prepare(const Scene& scene, const PrepareOptions& options) {
   model.F = scene.gripper.friction[0] * model.jaw_force[0] +
             scene.gripper.friction[1] * model.jaw_force[1];
   model.load_shifts = load_shifts_of(scene);
+  const bool is_free = scene.gripper.pressure.law == PressureLaw::kFree;
+  model.load_shifts_in_push = model.load_shifts.size() > (is_free ? 1u : 0u);
   model.c = model.region.torque_radius();
   model.L = longer_side(model.outline);
   model.half_thickness = half_thickness(scene.object.shape);

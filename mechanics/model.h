@@ -103,10 +103,17 @@ struct Model {
   /// Why the load of a pad shifts within it under any push, so that the pad plane alone
   /// cannot say exactly how the object moves; empty if only pushers might do that.
   std::vector<std::string> load_shifts;
+  bool load_shifts_in_push = false;  ///< for other reasons than free pressure
 
   /// A push by this contact needs the spatial mechanics.
   bool needs_space(const PushContact& contact) const {
     return !load_shifts.empty() || !contact.is_symmetric();
+  }
+
+  /// So does a finite push by it, which free pressure alone does not ask for: of the
+  /// answers that the free law allows, a push follows the one with the load at rest.
+  bool push_needs_space(const PushContact& contact) const {
+    return load_shifts_in_push || !contact.is_symmetric();
   }
 
   /// Dimensions of the planner's state: 3 (x, y, theta), 4 with roll.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "planner/roll_step.h"
+#include "planner/space_margin.h"
 #include "planner/steering.h"
 
 namespace prehensile {
@@ -101,7 +102,8 @@ bool check_exactly(const Model& model, const TransitionOptions& options, Plan& p
     push.slack =
         push_slack(model, push.start, push.push, carried(plan.margin, travelled));
     travelled += travel_in_pad_plane(push.push);
-    const std::string fault = fault_of(push, done, options);
+    std::string fault = fault_of(push, done, options);
+    if (fault.empty()) fault = space_margin_fault(model, push, plan.margin, options);
     if (fault.empty()) continue;
     if (why) *why = "push " + std::to_string(i + 1) + ": " + fault;
     return false;

@@ -1,5 +1,7 @@
 /// The exact check of a plan found by a search: every push is done by the transition
-/// function with the real pads, and sticks over the margin box at points along it.
+/// function with the real pads, in space where it needs that, and sticks over the margin
+/// box at points along it. In space members of the box do the push as well
+/// (space_margin.h).
 #pragma once
 
 #include <string>
@@ -9,8 +11,8 @@
 namespace prehensile {
 
 /// Least slack over the margin box along a push that starts at this grasp, by the real
-/// pad; points every 2 mm and 0.1 rad, at most 50. Infinity for a roll, which has no
-/// margin box.
+/// pad, in the pad plane; points every 2 mm and 0.1 rad, at most 50. Infinity for a roll,
+/// which has no margin box.
 double push_slack(const Model& model, const Grasp& start, const Push& push,
                   const Margin& margin);
 

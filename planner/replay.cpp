@@ -6,6 +6,7 @@
 #include "planner/bounds.h"
 #include "planner/exact_check.h"
 #include "planner/planner.h"
+#include "planner/space_margin.h"
 
 namespace prehensile {
 namespace {
@@ -87,6 +88,10 @@ ReplayedPush replay_push(const Model& model, const Margin& margin, const Grasp& 
       std::abs(done.max_push_force - planned.push_force) / done.max_push_force;
   replayed.slack = push_slack(model, start, planned.push, margin);
   replayed.why = disagreement(replayed, options);
+  if (replayed.why.empty()) {
+    const PlannedPush here{.push = planned.push, .start = start};
+    replayed.why = space_margin_fault(model, here, margin, options.transition);
+  }
   replayed.agrees = replayed.why.empty();
   return replayed;
 }

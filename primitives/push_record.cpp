@@ -13,6 +13,11 @@ void PushRecord::add(const Sample& sample) {
   transition_.min_push_force = std::fmin(transition_.min_push_force, sample.push_force);
   transition_.worst_certificate =
       std::fmax(transition_.worst_certificate, sample.certificate);
+  transition_.least_jaw_force = std::fmin(
+      transition_.least_jaw_force, std::fmin(sample.jaw_force[0], sample.jaw_force[1]));
+  transition_.least_pressed = std::fmin(transition_.least_pressed, sample.pressed);
+  transition_.most_out_of_plane =
+      std::fmax(transition_.most_out_of_plane, sample.out_of_plane);
   if (trace_) trace_->push_back(sample);
   if (!(sample.certificate <= certificate_tolerance_)) {
     stop({TransitionStatus::kUncertified, {}, "an instant failed its certificate"},

@@ -76,6 +76,8 @@ std::string_view name(TransitionStatus status) {
       return "pusher lost";
     case TransitionStatus::kPadLost:
       return "pad lost";
+    case TransitionStatus::kLeavesPlane:
+      return "leaves the pad plane";
     case TransitionStatus::kFalls:
       return "falls";
     case TransitionStatus::kJammed:
@@ -112,6 +114,8 @@ std::string_view name(EventKind kind) {
       return "contact lost";
     case EventKind::kGravityLost:
       return "gravity lost";
+    case EventKind::kOutOfPlane:
+      return "out of plane";
     case EventKind::kTips:
       return "tips by itself";
     case EventKind::kGuard:

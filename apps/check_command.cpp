@@ -7,8 +7,11 @@
 
 #include "apps/commands.h"
 #include "apps/json_number.h"
+#include "apps/parallel.h"
 #include "apps/plan_report.h"
+#include "apps/plan_samples.h"
 #include "apps/push_options.h"
+#include "apps/uncertainty_options.h"
 #include "io/plan_file.h"
 #include "planner/planner.h"
 #include "planner/replay.h"
@@ -19,7 +22,26 @@ namespace {
 struct Options {
   std::string file;
   bool json = false;
+  int samples = 0;  // 0: no sampling
+  std::vector<std::string> vary;
+  std::uint64_t seed = 1;
+  int jobs = 0;
+  double at_least = 0.0;  // share of success
+  std::string success = "sticks";
 };
+
+/// What is uncertain: as the command line says, else the scene, else the usual box.
+SampleOptions sampling(const Options& options, const Model& model) {
+  SampleOptions sampling;
+  const auto& stated = model.scene.uncertainty;
+  sampling.box = parse_box(options.vary, stated ? stated_box(model.scene) : usual_box());
+  if (stated && options.vary.empty()) sampling.spread = stated->spread;
+  sampling.samples = options.samples;
+  sampling.seed = options.seed;
+  sampling.jobs = number_of_jobs(options.jobs);
+  sampling.needs_goal = options.success == "goal";
+  return sampling;
+}
 
 /// A refusal is checked by its proof; an undecided plan has nothing that could hold.
 int check_refusal(const Model& model, const PlanFile& file, bool json) {
@@ -66,15 +88,30 @@ nlohmann::ordered_json to_json(const Replay& replay) {
 int run(const Options& options) {
   const PlanFile file = read_plan(options.file);
   const Model model = prepare(file.scene);
-  note_pad_plane(model);
   if (!file.plan.usable()) return check_refusal(model, file, options.json);
   const Replay replayed = replay(model, file.plan);
-  if (options.json) {
-    std::printf("%s\n", to_json(replayed).dump(2).c_str());
-  } else {
-    std::fputs(describe(model, file.plan, replayed).c_str(), stdout);
+  nlohmann::ordered_json json = to_json(replayed);
+  std::string text = describe(model, file.plan, replayed);
+  bool is_reached = true;
+  if (options.samples > 0) {
+    const SampleOptions how = sampling(options, model);
+    const SampleReport report = sample_plan(model, file.plan, how);
+    is_reached = report.successes >= options.at_least * options.samples;
+    json["samples"] = to_json(report, how);
+    json["samples"]["at_least"] = options.at_least;
+    json["samples"]["is_reached"] = is_reached;
+    text += describe(report, how);
+    if (!is_reached) {
+      text += "below the share asked for (--at-least " +
+              std::to_string(options.at_least) + ")\n";
+    }
   }
-  return replayed.agrees ? kDone : kNegative;
+  if (options.json) {
+    std::printf("%s\n", json.dump(2).c_str());
+  } else {
+    std::fputs(text.c_str(), stdout);
+  }
+  return replayed.agrees && is_reached ? kDone : kNegative;
 }
 
 }  // namespace
@@ -86,7 +123,33 @@ Command add_check(CLI::App& app) {
   command.add_option("PLAN", options->file, "plan file (JSON)")->required();
   command.add_flag("--json", options->json,
                    "print one JSON object on stdout, nothing else");
-  command.footer("Example:\n  prehensile check plan.json");
+  command
+      .add_option("--samples", options->samples,
+                  "also follow the plan in this many members of its uncertainty")
+      ->check(CLI::Range(1, 10'000'000));
+  add_vary_option(command, options->vary);
+  command.add_option("--seed", options->seed, "of the samples")->capture_default_str();
+  command
+      .add_option("--jobs", options->jobs,
+                  "threads; 0: one per core. The answer is the same for any number")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command
+      .add_option("--at-least", options->at_least,
+                  "share of success below which the exit code is 1")
+      ->check(CLI::Range(0.0, 1.0))
+      ->needs("--samples");
+  command
+      .add_option("--success", options->success,
+                  "sticks: every push is done without slip; goal: the pose at the end is "
+                  "a goal, too")
+      ->check(CLI::IsMember({"sticks", "goal"}))
+      ->capture_default_str();
+  command.footer(
+      "Without --vary the samples are of the scene's uncertainty, or else of the usual "
+      "margin.\nExample:\n  prehensile check plan.json\n"
+      "  prehensile check plan.json --samples 2000 --vary friction=0.2,grasp_mm=1 "
+      "--at-least 0.95");
   return [options] { return run(*options); };
 }
 

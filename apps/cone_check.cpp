@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "mechanics/planar_instant.h"
+#include "primitives/space_cone.h"
 
 namespace prehensile::apps {
 namespace {
@@ -62,6 +63,8 @@ ConeCheck check_cone(const ConeQuestion& question, const ConeMember& nominal,
   const double c = nominal.contact.c;
   const PlanarGrasp held = grasp_at(question.model, question.grasp.X_HO,
                                     question.model.contacts[question.contact].g_O);
+  const bool in_space =
+      question.model.push_needs_space(question.model.contacts[question.contact]);
   // Members that the cone has not seen.
   std::uint64_t fresh = std::uint64_t{1} << 32;
   for (int i = 0; i < question.count; ++i) {
@@ -79,8 +82,14 @@ ConeCheck check_cone(const ConeQuestion& question, const ConeMember& nominal,
     } else {
       ++check.not_unique;
     }
-    const PlanarInstant exact = solve_planar(held, drive);
-    if (usable(exact.status)) {
+    if (in_space) {
+      const SpatialVerdict exact =
+          sticks_in_space(question.model, question.grasp, question.contact,
+                          question.place, motion.direction, std::tan(motion.turn) / c);
+      check.exact_asked += exact.is_known;
+      check.exact_agrees += exact.is_known && (exact.margin >= 0.0) == inside;
+    } else if (const PlanarInstant exact = solve_planar(held, drive);
+               usable(exact.status)) {
       ++check.exact_asked;
       check.exact_agrees += follows(exact, drive, c) == inside;
     }

@@ -12,7 +12,8 @@ struct ConeCheck {
   int inside = 0;         ///< of the nominal cone
   int not_unique = 0;     ///< no unique answer by the limit surface
   int closed_agrees = 0;  ///< of asked - not_unique: the same verdict as the cone
-  int exact_asked = 0;    ///< by the exact planar solver with the real pads
+  int exact_asked = 0;    ///< by the exact solver with the real pads: the planar one, or
+                          ///< the spatial one where the contact needs it
   int exact_agrees = 0;
   int robust_asked = 0;  ///< motions inside the robust cone, with members drawn anew
   int robust_sticks = 0;

@@ -5,13 +5,17 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/arm_options.h"
 #include "apps/commands.h"
 #include "apps/plan_report.h"
+#include "apps/progress_line.h"
 #include "apps/push_options.h"
 #include "apps/table.h"
 #include "io/plan_file.h"
 #include "io/scene_file.h"
+#include "planner/advice.h"
 #include "planner/planner.h"
+#include "primitives/uncertainty.h"
 
 namespace prehensile::apps {
 namespace {
@@ -27,35 +31,74 @@ void request_stop(int signal) {
 struct Options {
   SceneOptions scene;
   PlanOptions plan;
+  ArmOptions arm;
   std::string output = "plan.json";
   double margin = 1.0;
-  bool no_polish = false;
+  bool nominal = false, robust = false, no_polish = false, no_advice = false;
 };
 
+/// The box that the plan is to survive, as the options say.
+void set_margin(const Options& options, const Model& model, PlanOptions& plan) {
+  if (options.nominal) {
+    plan.margin = Margin::none();
+  } else if (options.robust) {
+    plan.margin = margin_of(model, box_of(model.scene));
+    plan.promise = Promise::kScene;
+  } else {
+    plan.margin = margin_of(model, usual_box()).scaled(options.margin);
+  }
+}
+
+/// Plans; where that fails, or only a nominal plan exists, says what would help.
+Plan planned(const Options& options, const Model& model) {
+  ProgressLine line;
+  PlanOptions plan_options = options.plan;
+  set_margin(options, model, plan_options);
+  plan_options.polish = !options.no_polish;
+  plan_options.stop = &stop_requested;
+  plan_options.progress = [&line](const SearchProgress& p) { line.show(p); };
+  Plan plan = plan_regrasp(model, plan_options);
+  const bool needs_advice = !plan.usable() || plan.promise == Promise::kNominalOnly;
+  const bool has_answer = plan.status != PlanStatus::kStopped &&
+                          plan.status != PlanStatus::kUnsupported && !plan.stopped_early;
+  if (needs_advice && has_answer && !options.no_advice) {
+    plan.explanation = explain(model, plan, plan_options);
+  }
+  return plan;
+}
+
 int run(const Options& options) {
+  check_arm_files(options.arm);
   const SceneFile file = read_scene(options.scene.file, options.scene.overrides);
   if (!file.scene.goal) {
     throw BadInput(options.scene.file + ": goal: missing: expected the wanted pose");
   }
-  PlanOptions plan_options = options.plan;
-  plan_options.margin = Margin{}.scaled(options.margin);
-  plan_options.polish = !options.no_polish;
-  plan_options.stop = &stop_requested;
+  if (options.robust && !file.scene.uncertainty) {
+    throw BadInput(options.scene.file +
+                   ": uncertainty: missing: expected with --robust, as in "
+                   "uncertainty: {friction: 0.2, start_position: 0.001}");
+  }
   std::signal(SIGINT, request_stop);
   std::signal(SIGTERM, request_stop);
 
   const Model model = prepare(file.scene);
-  note_pad_plane(model);
-  const Plan plan = plan_regrasp(model, plan_options);
-  const std::string json = plan_to_json({file.scene, file.digest, plan});
+  note_pad_plane(model, "searched in the pad plane; every push is then checked in space");
+  const PlanFile written{file.scene, file.digest, planned(options, model)};
+  const Plan& plan = written.plan;
+  const std::string json = plan_to_json(written);
   write_atomically(options.output, json);
+  const std::string arm = write_arm_files(options.arm, model, written);
   if (options.scene.json) {
     std::fputs(json.c_str(), stdout);
+    std::fputs(arm.c_str(), stderr);
   } else {
     std::fputs(describe(model, plan).c_str(), stdout);
     std::printf("plan file: %s\n", options.output.c_str());
+    std::fputs(arm.c_str(), stdout);
   }
-  return plan.usable() ? kDone : kNegative;
+  const bool is_answer =
+      plan.usable() && !(options.robust && plan.promise == Promise::kNominalOnly);
+  return is_answer ? kDone : kNegative;
 }
 
 }  // namespace
@@ -82,17 +125,37 @@ Command add_plan(CLI::App& app) {
           "--time", options->plan.time_limit,
           "time limit in seconds; 0: none. The answer then depends on the machine")
       ->check(CLI::Range(0.0, 1e6));
-  command
-      .add_option(
-          "--margin", options->margin,
-          "factor on the default margin (10 % on friction, forces and torque radius, "
-          "1 mm on places)")
-      ->check(CLI::Range(0.0, 5.0))
-      ->capture_default_str();
+  CLI::Option* const margin =
+      command
+          .add_option("--margin", options->margin,
+                      "factor on the usual margin: frictions of pushers 10 % and fingers "
+                      "5 %, grip force 3 %, mass 1 %, torque radius 10 %, centre of mass "
+                      "0.7 mm, start in the hand 0.5 mm, pusher 1 mm and 0.5 deg")
+          ->check(CLI::Range(0.0, 5.0))
+          ->capture_default_str();
+  CLI::Option* const nominal = command.add_flag(
+      "--nominal", options->nominal, "plan for the values of the scene only: no margin");
+  CLI::Option* const robust =
+      command.add_flag("--robust", options->robust,
+                       "plan for the uncertainty that the scene states; exit code 1 if "
+                       "only a nominal plan is found");
+  margin->excludes(nominal)->excludes(robust);
+  nominal->excludes(robust);
+  command.add_flag("--improve", options->plan.improve,
+                   "search on for cheaper plans after the first one, until the budget, "
+                   "the time or Ctrl-C ends it");
   command.add_flag("--no-polish", options->no_polish,
                    "keep the plan as the search found it");
+  command.add_flag("--no-advice", options->no_advice,
+                   "where there is no plan, do not look for changes that would help");
+  add_arm_options(command, options->arm);
   command.footer(
-      "Example:\n  prehensile plan problems/published/tee_21.yaml -o plan.json --seed 7");
+      "Where no plan survives the margin, a nominal one is looked for and marked as "
+      "such.\n"
+      "Ctrl-C keeps the best plan found so far and writes it: exit code 0 if there is "
+      "one,\n1 if there is none; a second Ctrl-C ends the program.\n"
+      "Example:\n  prehensile plan problems/published/tee_21.yaml -o plan.json --seed 7\n"
+      "  prehensile plan problems/published/tee_21.yaml --arm arm.csv --arm arm.tum");
   return [options] { return run(*options); };
 }
 

@@ -64,6 +64,30 @@ std::string effort(const Plan& plan) {
               work.c_str(), static_cast<long long>(plan.instants), 1e3 * plan.seconds);
 }
 
+std::string promise_text(const Plan& plan) {
+  const Margin& margin = plan.margin;
+  if (plan.promise == Promise::kNominalOnly) return "NOMINAL ONLY: no margin\n";
+  if (margin.is_none()) return "nominal: no margin\n";
+  return text(
+      "planned for (%s): friction -%.0f %%, weight over grip +-%.0f %%, torque radius "
+      "+-%.0f %%, pusher place +-%.1f mm and tilt +-%.2f deg, centre of mass +-%.1f mm, "
+      "start in the hand +-%.1f mm\n",
+      std::string(name(plan.promise)).c_str(), 100.0 * margin.friction,
+      100.0 * margin.force, 100.0 * margin.torque_radius, to_mm(margin.place),
+      to_deg(margin.tilt), to_mm(margin.centre_of_mass), to_mm(margin.grasp));
+}
+
+std::string explanation_text(const Explanation& explanation) {
+  std::string out = explanation.text + '\n';
+  for (const ProposedChange& change : explanation.changes) {
+    out += text("  J = %.3f with ", change.cost) + change.what;
+    if (!change.option.empty()) out += ": " + change.option;
+    if (!change.pusher.empty()) out += ": pushers: - " + change.pusher;
+    out += '\n';
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string contact_text(const Model& model, int contact) {
@@ -74,7 +98,9 @@ std::string contact_text(const Model& model, int contact) {
 std::string pose_text(const Model& model, const Grasp& grasp) {
   std::string out = text("x %.2f mm, y %.2f mm, theta %.2f deg", to_mm(grasp.X_HO.x),
                          to_mm(grasp.X_HO.y), to_deg(grasp.X_HO.theta));
-  if (model.cross_section) out += text(", roll %.2f deg", to_deg(grasp.psi));
+  if (model.cross_section || model.prism) {
+    out += text(", roll %.2f deg", to_deg(grasp.psi));
+  }
   return out;
 }
 
@@ -94,13 +120,9 @@ std::string describe(const Model& model, const Plan& plan) {
         "published cost %.1f\n",
         plan.cost, plan.placements, to_mm(plan.travel), plan.lower_bound,
         100.0 * plan.gap(), plan.published_cost);
-    out += text(
-        "planned for: friction -%.0f %%, forces +-%.0f %%, torque radius +-%.0f %%, "
-        "pusher place +-%.1f mm, centre of mass +-%.1f mm\n",
-        100.0 * plan.margin.friction, 100.0 * plan.margin.force,
-        100.0 * plan.margin.torque_radius, to_mm(plan.margin.place),
-        to_mm(plan.margin.centre_of_mass));
+    out += promise_text(plan);
   }
+  if (plan.explanation) out += explanation_text(*plan.explanation);
   return out + effort(plan);
 }
 

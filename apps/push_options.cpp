@@ -143,15 +143,11 @@ Push chosen_push(const Model& model, int contact, const PushOptions& options,
                     .bend = kRadPerDeg * path.bend_deg};
 }
 
-void note_pad_plane(const Model& model) {
+void note_pad_plane(const Model& model, const char* what) {
   const bool any = std::any_of(
       model.contacts.begin(), model.contacts.end(),
-      [&model](const PushContact& contact) { return model.needs_space(contact); });
-  if (!any) return;
-  std::fputs(
-      "note: answered in the pad plane; in space the load of the pads shifts as well "
-      "(prehensile inspect says why, query instant how much)\n",
-      stderr);
+      [&model](const PushContact& contact) { return model.push_needs_space(contact); });
+  if (any) std::fprintf(stderr, "note: %s\n", what);
 }
 
 Vec2 chosen_direction(const Model& model, int contact, const PushOptions& options) {

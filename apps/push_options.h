@@ -29,9 +29,9 @@ Solver solver_called(const std::string& word);
 int chosen_contact(const Model& model, const PushOptions& options);
 Grasp chosen_grasp(const Model& model, const PushOptions& options);
 
-/// Says on stderr what the answer leaves out where the scene needs the spatial mechanics
-/// and the command knows the pad plane: nothing for scenes that do not.
-void note_pad_plane(const Model& model);
+/// Says on stderr which part of the answer is one of the pad plane, where the scene needs
+/// the spatial mechanics: nothing for scenes that do not.
+void note_pad_plane(const Model& model, const char* what);
 
 /// Unit direction in O.
 Vec2 chosen_direction(const Model& model, int contact, const PushOptions& options);

@@ -11,6 +11,7 @@
 #include "apps/table.h"
 #include "apps/uncertainty_options.h"
 #include "io/plan_file.h"
+#include "primitives/space_cone.h"
 
 namespace prehensile::apps {
 namespace {
@@ -69,7 +70,6 @@ int run(const Options& options) {
   const SceneFile file = read_scene(options.scene.file, options.scene.overrides);
   const Model model = prepare(file.scene, {.points_per_pad = options.points});
   const int contact = chosen_contact(model, options.push);
-  note_pad_plane(model);
   const Grasp grasp = chosen_grasp(model, options.push);
   if (!(model.F > 0.0)) {
     throw BadInput("gripper: a grasp without friction has no motion cone");
@@ -89,6 +89,13 @@ int run(const Options& options) {
   const std::vector<ConeMember> members =
       members_of(options, model, grasp, contact, report.box, report.unusable);
   report.cone = motion_cone(nominal, members);
+  if (model.push_needs_space(model.contacts[contact])) {
+    note_pad_plane(model,
+                   "the nominal cone is one of instants in space; the robust one is that "
+                   "of the pad plane as far as it lies in it, and the check compares the "
+                   "pad plane with space");
+    report.cone = cone_in_space(model, grasp, contact, report.place, report.cone);
+  }
   report.check = check_cone({.model = model,
                              .grasp = grasp,
                              .contact = contact,

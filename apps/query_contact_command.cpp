@@ -157,7 +157,6 @@ int run(const Options& options) {
   const SceneFile file = read_scene(options.scene.file, options.scene.overrides);
   const Model model = prepare(file.scene, {.points_per_pad = options.path.points});
   const int contact = chosen_contact(model, options.push);
-  note_pad_plane(model);
   const Grasp grasp = chosen_grasp(model, options.push);
   const Push push = chosen_push(model, contact, options.push, options.path);
   const int pusher = model.contacts[contact].pusher;

@@ -74,7 +74,8 @@ std::vector<int> allowed_contacts(const Options& options, const Model& model) {
 int run(const Options& options) {
   const SceneFile file = read_scene(options.scene.file, options.scene.overrides);
   const Model model = prepare(file.scene, {.points_per_pad = options.points});
-  note_pad_plane(model);
+  note_pad_plane(model,
+                 "searched in the pad plane; the push found is then followed in space");
   const Grasp grasp = chosen_grasp(model, {.at = options.at});
   PlaceReport report{.model = model};
   report.scene = options.scene.file;

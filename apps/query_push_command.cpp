@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <vector>
@@ -25,6 +26,19 @@ struct Options {
   double grip_tolerance_mm = 1.0;
 };
 
+/// What the pad plane does not have: forces of the jaws and how their pads press.
+std::string describe_space(const std::vector<Sample>& trace, std::size_t stride) {
+  Table table({"done %", "jaw 1 N", "jaw 2 N", "moment across N mm", "pressed %",
+               "out of plane %"});
+  for (std::size_t i = 0; i < trace.size(); i += stride) {
+    const Sample& s = trace[i];
+    table.add({text("%.1f", 100.0 * s.s), text("%.4f", s.jaw_force[0]),
+               text("%.4f", s.jaw_force[1]), text("%.4f", to_mm(s.moment_across)),
+               text("%.0f", 100.0 * s.pressed), text("%.1f", 100.0 * s.out_of_plane)});
+  }
+  return "followed in space, where the loads of the pads shift:\n" + table.str();
+}
+
 std::string describe(const Model& model, const Options& options,
                      const Transition& transition, const std::vector<Sample>& trace) {
   std::string out = options.path.kind + ": " + std::string(name(transition.status)) +
@@ -43,6 +57,7 @@ std::string describe(const Model& model, const Options& options,
                text("%.4f", to_mm(s.slip_rate)), std::string(name(s.status))});
   }
   out += table.str();
+  if (transition.in_space) out += describe_space(trace, stride);
   for (int i = 0; i < transition.event_count; ++i) {
     out += text("event at %.3f %%: ", 100.0 * transition.events[i].s) +
            std::string(name(transition.events[i].kind)) + '\n';
@@ -76,6 +91,7 @@ nlohmann::ordered_json to_json(const Transition& transition,
                                 {"error_estimate", number(transition.error_estimate)},
                                 {"certificate", number(transition.worst_certificate)},
                                 {"instants", transition.instants},
+                                {"in_space", transition.in_space},
                                 {"events", nlohmann::ordered_json::array()},
                                 {"samples", nlohmann::ordered_json::array()}};
   for (int i = 0; i < transition.event_count; ++i) {
@@ -89,14 +105,24 @@ nlohmann::ordered_json to_json(const Transition& transition,
                    {"normal_force", number(s.normal_force)},
                    {"tangential_force", number(s.tangential_force)},
                    {"slip", number(s.slip_rate)},
-                   {"status", std::string(name(s.status))},
-                   {"certificate", number(s.certificate)}});
+                   {"status", std::string(name(s.status))}});
+    if (std::isfinite(s.opening)) sample["opening"] = s.opening;
+    sample.update({{"certificate", number(s.certificate)}});
+    if (transition.in_space) {
+      sample.update({{"jaw_force", {number(s.jaw_force[0]), number(s.jaw_force[1])}},
+                     {"moment_across", number(s.moment_across)},
+                     {"pressed", number(s.pressed)},
+                     {"out_of_plane", number(s.out_of_plane)}});
+    }
     out["samples"].push_back(sample);
   }
   return out;
 }
 
 int run_grip_range(const Options& options, const Model& model, const Push& push) {
+  note_pad_plane(model,
+                 "the range is found by pushes in space; what the grasp holds alone and "
+                 "the profile along the push are those of the pad plane");
   GripRangeOptions wanted;
   wanted.tolerance = 1e-3 * options.grip_tolerance_mm;
   wanted.transition.tolerance =
@@ -115,7 +141,6 @@ int run(const Options& options) {
   const SceneFile file = read_scene(options.scene.file, options.scene.overrides);
   const Model model = prepare(file.scene, {.points_per_pad = options.path.points});
   const int contact = chosen_contact(model, options.push);
-  note_pad_plane(model);
   const Push push = chosen_push(model, contact, options.push, options.path);
   if (options.grip_range) return run_grip_range(options, model, push);
   std::vector<Sample> trace;

@@ -24,7 +24,7 @@ struct Entry {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-constexpr std::array<Entry, 11> kEntries = {{
+constexpr std::array<Entry, 12> kEntries = {{
     {"friction", Unknown::kFriction, 1, 1.0, ""},
     {"finger_friction", Unknown::kFingerFriction, 1, 1.0, ""},
     {"grip_force", Unknown::kGripForce, 1, 1.0, "N"},
@@ -36,12 +36,13 @@ constexpr std::array<Entry, 11> kEntries = {{
     {"direction_deg", Unknown::kDirection, 1, kDegree, "deg"},
     {"grasp_mm", Unknown::kGraspX, 2, 1e-3, "mm"},
     {"grasp_deg", Unknown::kGraspAngle, 1, kDegree, "deg"},
+    {"tilt_deg", Unknown::kTilt, 1, kDegree, "deg"},
 }};
 
 constexpr const char* kKnown =
     "friction, finger_friction, grip_force, mass, torque_radius (shares, or numbers with "
     "abs behind), centre_of_mass_mm, place_mm, travel_mm, direction_deg, grasp_mm, "
-    "grasp_deg";
+    "grasp_deg, tilt_deg";
 
 [[noreturn]] void refuse(const std::string& entry, const std::string& what) {
   throw BadInput("--vary " + entry + ": " + what);
@@ -106,8 +107,8 @@ std::string box_text(const UncertaintyBox& box) {
     for (char& c : key) c = c == '_' ? ' ' : c;
     if (!out.empty()) out += ", ";
     out += key;
-    out += relative ? text(" ±%g %%", 100.0 * width)
-                    : text(" ±%g %s", width / entry.unit, entry.shown);
+    out += relative ? text(" ±%.4g %%", 100.0 * width)
+                    : text(" ±%.4g %s", width / entry.unit, entry.shown);
   }
   return out.empty() ? "nothing" : out;
 }

@@ -19,8 +19,8 @@ void add_vary_option(CLI::App& command, std::vector<std::string>& entries);
 
 /// "friction=0.2" is a share of the nominal value, "friction=0.05abs" a number in the
 /// unit of the field; lengths and angles are always absolute: place_mm, travel_mm,
-/// direction_deg, grasp_mm, grasp_deg, centre_of_mass_mm. Empty: `otherwise`. Throws
-/// BadInput.
+/// direction_deg, grasp_mm, grasp_deg, tilt_deg, centre_of_mass_mm. Empty: `otherwise`.
+/// Throws BadInput.
 UncertaintyBox parse_box(const std::vector<std::string>& entries,
                          const UncertaintyBox& otherwise);
 

@@ -39,6 +39,8 @@ inline const auto kStatusWords = named(
     std::array{PlanStatus::kNotRun, PlanStatus::kReachedGoal, PlanStatus::kNothingToDo,
                PlanStatus::kInfeasible, PlanStatus::kBudgetSpent, PlanStatus::kStopped,
                PlanStatus::kUnsupported});
+inline const auto kPromiseWords = named(std::array{
+    Promise::kNominal, Promise::kNominalOnly, Promise::kMargin, Promise::kScene});
 inline const auto kProofWords = named(std::array{
     Proof::Kind::kGoalOffObject, Proof::Kind::kStartFalls, Proof::Kind::kGoalFalls,
     Proof::Kind::kNoPusher, Proof::Kind::kNoRoll, Proof::Kind::kHalfSpace});
@@ -58,12 +60,25 @@ struct WrittenPush {
   PlannedPush planned;  // its numbers; the push itself is made from what is above
 };
 
+/// An obstacle with its count.
+struct WrittenObstacle {
+  std::string constraint;
+  std::uint64_t count = 0;
+};
+
+struct WrittenExplanation {
+  std::string text;
+  std::vector<WrittenObstacle> obstacles;
+  std::vector<ProposedChange> changes;
+};
+
 struct WrittenPlan {
   std::string scene;
   std::string scene_digest;
   Plan plan;  // its pushes and proof are made from the two below
   std::vector<WrittenPush> pushes;
   std::optional<Proof> proof;
+  std::optional<WrittenExplanation> explanation;
   double gap = kNan;
 };
 
@@ -117,6 +132,16 @@ void visit_push(Fields& fields, WrittenPush& push) {
                   "Of the end pose.");
 }
 
+/// A number that files of before it do not have: 0 if absent, written only if not 0.
+template <typename Fields>
+void if_positive(Fields& fields, const char* key, double& value, const Bounds& bounds,
+                 const char* doc) {
+  std::optional<double> written;
+  if (value > 0.0) written = value;
+  fields.number(key, written, bounds, doc);
+  value = written.value_or(0.0);
+}
+
 template <typename Fields>
 void visit_margin(Fields& fields, Margin& margin) {
   fields.number("friction", margin.friction, kShares, kRequired, "Of the pusher.");
@@ -126,6 +151,10 @@ void visit_margin(Fields& fields, Margin& margin) {
   fields.number("place", margin.place, kDistances, kRequired, "Of the pusher.");
   fields.number("centre_of_mass", margin.centre_of_mass, kDistances, kRequired,
                 "Of the object.");
+  if_positive(fields, "grasp", margin.grasp, kDistances,
+              "Of the finger axis in the object when the first push begins. Absent: 0.");
+  if_positive(fields, "tilt", margin.tilt, {0.0, 10.0, "rad"},
+              "Of the motion and of gravity against the face. Absent: 0.");
 }
 
 template <typename Fields>
@@ -151,6 +180,28 @@ void visit_costs(Fields& fields, WrittenPlan& record) {
                   "1 per push by a new pusher, 0.1 by the same one.");
 }
 
+template <typename Fields>
+void visit_change(Fields& fields, ProposedChange& change) {
+  fields.text("what", change.what, kRequired, "In words.");
+  fields.text("option", change.option, kOptional, "Of the command line that makes it.");
+  fields.text("pusher", change.pusher, kOptional, "To add to the pushers of the scene.");
+  fields.measured("cost", change.cost, kCosts, "J of the plan found with it.");
+}
+
+template <typename Fields>
+void visit_explanation(Fields& fields, WrittenExplanation& explanation) {
+  fields.text("text", explanation.text, kRequired, "One paragraph.");
+  fields.list("stopped_by", explanation.obstacles, Length{0, 100}, kOptional,
+              "What stopped the pushes that the search tried, most frequent first.",
+              [](auto& f, WrittenObstacle& obstacle) {
+                f.text("constraint", obstacle.constraint, kRequired, "In words.");
+                f.count("count", obstacle.count, "Pushes that it stopped.");
+              });
+  fields.list("changes", explanation.changes, Length{0, 1000}, kOptional,
+              "Changes that were planned for and worked.",
+              [](auto& f, ProposedChange& change) { visit_change(f, change); });
+}
+
 /// `Work` is what a plan counts in signed numbers; a file has none below 0.
 template <typename Fields, typename Work>
 void visit_work(Fields& fields, const char* key, Work& work, const char* doc) {
@@ -169,11 +220,17 @@ void visit_plan(Fields& fields, WrittenPlan& record) {
   fields.text("message", plan.message, kRequired, "The same in words.");
   fields.group("proof", record.proof, "Why no plan exists; only if infeasible.",
                [](auto& f, Proof& proof) { visit_proof(f, proof); });
+  fields.group("explanation", record.explanation,
+               "Why there is no plan, or only a nominal one, and what would help.",
+               [](auto& f, WrittenExplanation& e) { visit_explanation(f, e); });
   fields.text("planner", plan.planner, kRequired, "Which planner found it.");
   fields.count("seed", plan.seed, "Of every random choice.");
   fields.group("margin", plan.margin, kRequired,
                "Box of uncertainty that every push survives: shares, and distances in m.",
                [](auto& f, Margin& margin) { visit_margin(f, margin); });
+  fields.word("promise", plan.promise, kPromiseWords, kOptional,
+              "What the margin is. nominal only: no plan was found that survives the one "
+              "asked for, this one holds for the values of the scene alone.");
   fields.group("start", plan.start, kRequired, "Pose in the hand before.", kVisitGrasp);
   fields.group("goal", plan.goal, kRequired, "Pose reached.", kVisitGrasp);
   fields.list("pushes", record.pushes, Length{0, kMostPushes}, kRequired, "In order.",

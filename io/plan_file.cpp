@@ -1,5 +1,6 @@
 #include "io/plan_file.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "io/document.h"
@@ -187,6 +188,20 @@ void check_agreement(const WrittenPlan& record, const std::string& digest,
   }
 }
 
+std::optional<internal::WrittenExplanation> record_of(const Plan& plan) {
+  if (!plan.explanation) return std::nullopt;
+  internal::WrittenExplanation out{plan.explanation->text, {}, plan.explanation->changes};
+  for (int i = 0; i < kObstacles; ++i) {
+    const auto obstacle = static_cast<Obstacle>(i);
+    if (plan.obstacles[obstacle] == 0) continue;
+    out.obstacles.push_back({std::string(name(obstacle)),
+                             static_cast<std::uint64_t>(plan.obstacles[obstacle])});
+  }
+  std::stable_sort(out.obstacles.begin(), out.obstacles.end(),
+                   [](const auto& a, const auto& b) { return a.count > b.count; });
+  return out;
+}
+
 WrittenPlan record_of(const PlanFile& file) {
   const Model model = prepare(file.scene);
   WrittenPlan record;
@@ -195,6 +210,7 @@ WrittenPlan record_of(const PlanFile& file) {
   record.plan = file.plan;
   record.gap = file.plan.gap();
   if (file.plan.proof.kind != Proof::Kind::kNone) record.proof = file.plan.proof;
+  record.explanation = record_of(file.plan);
   for (const PlannedPush& planned : file.plan.pushes) {
     record.pushes.push_back(record_of(model, planned));
   }
@@ -219,6 +235,17 @@ PlanFile parse_plan(const std::string& text, const std::string& label) {
 
   PlanFile file{scene.scene, record.scene_digest, record.plan};
   if (record.proof) file.plan.proof = *record.proof;
+  if (record.explanation) {
+    file.plan.explanation = {record.explanation->text, record.explanation->changes};
+    for (int i = 0; i < kObstacles; ++i) {
+      const auto obstacle = static_cast<Obstacle>(i);
+      for (const internal::WrittenObstacle& written : record.explanation->obstacles) {
+        if (written.constraint != name(obstacle)) continue;
+        file.plan.obstacles.count[static_cast<std::size_t>(i)] =
+            static_cast<std::int64_t>(written.count);
+      }
+    }
+  }
   const Model model = prepare(scene.scene);
   PushMaker maker(model, root, faults);
   for (std::size_t i = 0; i < record.pushes.size(); ++i) {

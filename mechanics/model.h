@@ -54,6 +54,15 @@ struct Decision {
   std::string why;
 };
 
+/// A prism that lies in the pad plane, between the jaws.
+struct LyingPrism {
+  std::vector<Vec2> section;  ///< [m] (lateral axis, z), convex, counter-clockwise
+  Vec2 com = Vec2::Zero();    ///< [m] centre of mass in the section
+  Vec2 axis = {1.0, 0.0};     ///< in the pad plane of O
+  Vec2 lateral = {0.0, 1.0};  ///< likewise
+  double length = 0.0;        ///< [m]
+};
+
 struct PrepareOptions {
   int points_per_pad = 16;  ///< quadrature of an unclipped pad: 1, 4, 8, 16, 32 or 64
 };
@@ -85,15 +94,26 @@ struct Model {
   /// Rolling; absent unless the object is round and lies between the jaws.
   std::optional<CrossSectionModel> cross_section;
 
+  /// Rolling over edges: section (scene/lying_prism.h), present for a prism that lies in
+  /// the pad plane. Its roll is no dimension of the planner's state.
+  std::optional<LyingPrism> prism;
+
   std::vector<Decision> decisions;
 
   /// Why the load of a pad shifts within it under any push, so that the pad plane alone
   /// cannot say exactly how the object moves; empty if only pushers might do that.
   std::vector<std::string> load_shifts;
+  bool load_shifts_in_push = false;  ///< for other reasons than free pressure
 
   /// A push by this contact needs the spatial mechanics.
   bool needs_space(const PushContact& contact) const {
     return !load_shifts.empty() || !contact.is_symmetric();
+  }
+
+  /// So does a finite push by it, which free pressure alone does not ask for: of the
+  /// answers that the free law allows, a push follows the one with the load at rest.
+  bool push_needs_space(const PushContact& contact) const {
+    return load_shifts_in_push || !contact.is_symmetric();
   }
 
   /// Dimensions of the planner's state: 3 (x, y, theta), 4 with roll.

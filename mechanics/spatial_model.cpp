@@ -23,7 +23,7 @@ void add_point(const Vec3& p, double preload, SpatialProblem& problem) {
   ++problem.patch[problem.patch_count - 1].count;
 }
 
-void add_pad(const Model& model, ContactBody body, double compliance,
+void add_pad(const Model& model, ContactBody body, PressureLaw law, double compliance,
              const ContactPoints& points, SpatialProblem& problem) {
   const Gripper& gripper = model.scene.gripper;
   const bool is_jaw_1 = body == ContactBody::kJaw1;
@@ -34,7 +34,7 @@ void add_pad(const Model& model, ContactBody body, double compliance,
   patch.n = (is_jaw_1 ? 1.0 : -1.0) * Vec3::UnitZ();
   patch.t = Vec3::UnitX();
   patch.mu = gripper.friction[is_jaw_1 ? 0 : 1];
-  patch.pressure = gripper.pressure.law;
+  patch.pressure = law;
   patch.compliance = patch.pressure == PressureLaw::kFoundation ? compliance : 0.0;
   patch.spin_radius = point ? point->spin_radius.value_or(0.0) : 0.0;
   const double known = patch.pressure == PressureLaw::kFree ? 0.0 : force;
@@ -90,6 +90,57 @@ Eigen::Matrix<double, 6, 6> inertia_at(const Model& model, const PlanarPose& X_H
   return inertia;
 }
 
+SpatialProblem problem_at(const Model& model, const PushContact& contact,
+                          const PlanarDrive& drive, const PlanarPose& X_HO,
+                          const Vec2& g_O, const SpatialTwist& V_HP,
+                          const SpatialQuestionOptions& options) {
+  SpatialProblem problem;
+  const Gripper& gripper = model.scene.gripper;
+  const ContactPoints points = model.region.at(X_HO);
+  const bool is_carried = model.jaw_force[0] + model.jaw_force[1] > 0.0 ||
+                          (gripper.grip_force == 0.0 && model.scene.g_Wz == 0.0);
+  if (points.count == 0 || !is_carried ||
+      2 * points.count + 2 * drive.count > SpatialProblem::kMaxPoints) {
+    return problem;
+  }
+  const Face& face = model.faces[contact.face];
+  const double middle = 0.5 * (contact.z_low + contact.z_high);
+  const double shift = options.height ? *options.height - middle : 0.0;
+  const double z_low = std::clamp(contact.z_low + shift, face.z_low, face.z_high);
+  const double z_high = std::clamp(contact.z_high + shift, face.z_low, face.z_high);
+
+  const Vec2 touch = 0.5 * (drive.p_HC[0] + drive.p_HC[drive.count - 1]);
+  double rate = rate_at({touch.x(), touch.y(), 0.5 * (z_low + z_high)}, V_HP);
+  // A line that turns about its middle moves at its ends.
+  for (int i = 0; i < drive.count; ++i) {
+    const Vec2& end = drive.p_HC[i];
+    rate = std::max(rate, 1e-3 * rate_at({end.x(), end.y(), z_low}, V_HP));
+  }
+  const double g_z = model.scene.g_Wz;
+  const double weight = model.mass * std::hypot(g_O.norm(), g_z);
+  const double force = std::max(gripper.grip_force, weight) *
+                       std::max({1.0, gripper.friction[0], gripper.friction[1]});
+  const double compliance =
+      gripper.pressure.compliance * rate / (force > 0.0 ? force : 1.0);
+  const bool follows =
+      options.follow_free_pressure && gripper.pressure.law == PressureLaw::kFree;
+  const PressureLaw law = follows ? PressureLaw::kFoundation : gripper.pressure.law;
+  add_pad(model, ContactBody::kJaw1, law, compliance, points, problem);
+  add_pad(model, ContactBody::kJaw2, law, compliance, points, problem);
+  add_pusher(drive, z_low, z_high, compliance, problem);
+
+  problem.jaw_mode = gripper.jaw_mode;
+  problem.grip_force = gripper.grip_force;
+  const Vec2 p = transform(X_HO, model.p_OCom);
+  const Vec2 g_H = rotated(X_HO.theta, g_O);
+  const Vec3 p_HCom(p.x(), p.y(), model.z_OCom);
+  const Vec3 f = model.mass * Vec3(g_H.x(), g_H.y(), g_z);
+  problem.w_g << f, p_HCom.cross(f);
+  problem.V_HP = V_HP;
+  if (options.from_rest) problem.inertia = inertia_at(model, X_HO, p_HCom);
+  return problem;
+}
+
 }  // namespace
 
 SpatialTwist in_space(const PlanarTwist& V) {
@@ -108,44 +159,15 @@ SpatialProblem spatial_problem_at(const Model& model, const PushContact& contact
                                   double place, const PlanarPose& X_HO,
                                   const SpatialTwist& V_HP,
                                   const SpatialQuestionOptions& options) noexcept {
-  SpatialProblem problem;
-  const Gripper& gripper = model.scene.gripper;
-  const ContactPoints points = model.region.at(X_HO);
   const PlanarDrive drive = drive_at(contact, place, X_HO, in_pad_plane(V_HP));
-  const bool is_carried = model.jaw_force[0] + model.jaw_force[1] > 0.0 ||
-                          (gripper.grip_force == 0.0 && model.scene.g_Wz == 0.0);
-  if (points.count == 0 || !is_carried ||
-      2 * points.count + 2 * drive.count > SpatialProblem::kMaxPoints) {
-    return problem;
-  }
-  const Face& face = model.faces[contact.face];
-  const double middle = 0.5 * (contact.z_low + contact.z_high);
-  const double shift = options.height ? *options.height - middle : 0.0;
-  const double z_low = std::clamp(contact.z_low + shift, face.z_low, face.z_high);
-  const double z_high = std::clamp(contact.z_high + shift, face.z_low, face.z_high);
+  return problem_at(model, contact, drive, X_HO, contact.g_O, V_HP, options);
+}
 
-  const Vec2 touch = 0.5 * (drive.p_HC[0] + drive.p_HC[drive.count - 1]);
-  const double rate = rate_at({touch.x(), touch.y(), 0.5 * (z_low + z_high)}, V_HP);
-  const double g_z = model.scene.g_Wz;
-  const double weight = model.mass * std::hypot(contact.g_O.norm(), g_z);
-  const double force = std::max(gripper.grip_force, weight) *
-                       std::max({1.0, gripper.friction[0], gripper.friction[1]});
-  const double compliance =
-      gripper.pressure.compliance * rate / (force > 0.0 ? force : 1.0);
-  add_pad(model, ContactBody::kJaw1, compliance, points, problem);
-  add_pad(model, ContactBody::kJaw2, compliance, points, problem);
-  add_pusher(drive, z_low, z_high, compliance, problem);
-
-  problem.jaw_mode = gripper.jaw_mode;
-  problem.grip_force = gripper.grip_force;
-  const Vec2 p = transform(X_HO, model.p_OCom);
-  const Vec2 g_H = rotated(X_HO.theta, contact.g_O);
-  const Vec3 p_HCom(p.x(), p.y(), model.z_OCom);
-  const Vec3 f = model.mass * Vec3(g_H.x(), g_H.y(), g_z);
-  problem.w_g << f, p_HCom.cross(f);
-  problem.V_HP = V_HP;
-  if (options.from_rest) problem.inertia = inertia_at(model, X_HO, p_HCom);
-  return problem;
+SpatialProblem spatial_problem_at(const Model& model, const PushContact& contact,
+                                  const PlanarDrive& drive, const PlanarPose& X_HO,
+                                  const Vec2& g_O,
+                                  const SpatialQuestionOptions& options) noexcept {
+  return problem_at(model, contact, drive, X_HO, g_O, in_space(drive.V_HP), options);
 }
 
 }  // namespace prehensile

@@ -22,6 +22,9 @@ struct SpatialQuestionOptions {
                            ///< object has its inertia; else quasi-static
   std::optional<double> height;  ///< [m] of the pusher above the mid-plane instead of the
                                  ///< scene's; a feature with width is moved as a whole
+  /// Pads of free pressure rest on foundations instead: of all answers that the free law
+  /// allows, the one that a series of instants can follow.
+  bool follow_free_pressure = false;
 };
 
 /// The question for this contact at a pose: `place` as in PushContact::segment, `V_HP`
@@ -31,6 +34,14 @@ struct SpatialQuestionOptions {
 SpatialProblem spatial_problem_at(const Model& model, const PushContact& contact,
                                   double place, const PlanarPose& X_HO,
                                   const SpatialTwist& V_HP,
+                                  const SpatialQuestionOptions& options = {}) noexcept;
+
+/// The same with the points that touch, in the pad plane, and with gravity g_O [m/s^2]
+/// in O: the middle of a push, where the object may have turned on the pusher. The
+/// drive's twist is the pusher's motion.
+SpatialProblem spatial_problem_at(const Model& model, const PushContact& contact,
+                                  const PlanarDrive& drive, const PlanarPose& X_HO,
+                                  const Vec2& g_O,
                                   const SpatialQuestionOptions& options = {}) noexcept;
 
 }  // namespace prehensile

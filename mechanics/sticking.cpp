@@ -73,11 +73,16 @@ Vec2 centre_of_pressure(const StickContact& contact, const Effort& effort) {
   return contact.a - effort.moment_a / effort.force.dot(contact.n) * contact.t;
 }
 
-/// Greatest normal rate of the pusher between x and y, over the speed of the twist.
+/// Greatest normal rate of the pusher between x and y, over the speed of the twist, at
+/// worst over tilt and place of the finger axis.
 double advance(const StickContact& contact, const Vec2& x, const Vec2& y,
-               const Vec2& p_OF, const Vec2& velocity, double omega) {
+               const Vec2& p_OF, const Vec2& velocity, double omega,
+               const Margin& margin) {
+  const double n = contact.n.dot(velocity);
+  const double lost = n - least_turned(n, cross(contact.n, velocity), margin.tilt) +
+                      margin.grasp * std::abs(omega);
   const auto rate = [&](const Vec2& end) {
-    return contact.n.dot(velocity + omega * perp(end - p_OF));
+    return contact.n.dot(velocity + omega * perp(end - p_OF)) - lost;
   };
   const double turn = contact.c * omega;
   return std::max(rate(x), rate(y)) / std::sqrt(velocity.squaredNorm() + turn * turn);
@@ -101,13 +106,55 @@ StickContact weakened(const StickContact& contact, const Margin& margin) {
   return weak;
 }
 
+/// Where the finger axis is, and where it was when the push began: a tilt of the push
+/// turns its path about that place.
+struct FingerPath {
+  Vec2 p_OF, p_OF_begin;
+};
+
+/// How far drag and gravity may be turned [rad].
+struct Tilts {
+  double drag, gravity;
+};
+
+/// Cone and ends as cone_slack and end_slack say, but drag and gravity turned to the
+/// worst, each row by itself, and the finger axis off its place.
+double turned_slack(const StickContact& weak, const FingerPath& path, const Drag& drag,
+                    double gravity, const Margin& margin, const Tilts& tilts) {
+  const auto row = [&](double n, double t) {
+    const Vec2 w = n * weak.n + t * weak.t;
+    return least_turned(w.dot(drag.force), cross(w, drag.force), tilts.drag) +
+           gravity *
+               least_turned(-w.dot(weak.gamma), cross(w, weak.gamma), tilts.gravity);
+  };
+  double slack = std::min(row(weak.mu, -1.0), row(weak.mu, 1.0));
+  if (weak.mu == 0.0) slack = std::min(slack, row(1.0, 0.0));
+  if (weak.is_point) return slack;
+  const auto moment = [&](double sign, const Vec2& end) {
+    const Vec2 lever = weak.p_OCom - end;
+    return sign * drag.moment - margin.grasp * drag.force.norm() +
+           least_turned(sign * cross(path.p_OF - end, drag.force),
+                        (path.p_OF_begin - end).dot(drag.force), tilts.drag) +
+           gravity * least_turned(-sign * cross(lever, weak.gamma), lever.dot(weak.gamma),
+                                  tilts.gravity);
+  };
+  const double ends = std::min(moment(-1.0, weak.a), moment(1.0, weak.b));
+  const double shift = gravity * margin.centre_of_mass * weak.gamma.norm();
+  return std::min(slack, (ends - shift) / weak.c);
+}
+
 /// Least slack of a weakened contact at one drag over the box of m/F and centre of mass,
-/// in both of which the rows are affine.
-double slack_of_drag(const StickContact& weak, const Vec2& p_OF, const Drag& drag,
-                     const Margin& margin) {
+/// in both of which the rows are affine, and over tilt and place of the finger axis.
+double slack_of_drag(const StickContact& weak, const FingerPath& path, const Drag& drag,
+                     const Margin& margin, const Tilts& tilts) {
+  const bool straight = tilts.drag == 0.0 && tilts.gravity == 0.0 && margin.grasp == 0.0;
   double slack = kInfinity;
   for (const double gravity : {1.0 - margin.force, 1.0 + margin.force}) {
-    const Effort effort = effort_of(weak, p_OF, drag, gravity);
+    if (!straight) {
+      slack = std::min(slack, turned_slack(weak, path, drag, gravity, margin, tilts));
+      continue;
+    }
+    const Effort effort = effort_of(weak, path.p_OF, drag, gravity);
     slack = std::min(slack, cone_slack(weak, effort));
     if (weak.is_point) continue;
     const double shift = gravity * margin.centre_of_mass * weak.gamma.norm() / weak.c;
@@ -153,8 +200,8 @@ StickTest stick_test(const StickContact& contact, double F, const Vec2& p_OF,
   const Vec2 velocity = v * e;
   const Drag drag = ellipsoid_drag(contact.c, velocity, omega);
   StickTest test = reported(contact, p_OF, drag, F, kEllipsoidMoment);
-  test.slack =
-      std::min(test.slack, advance(contact, contact.a, contact.b, p_OF, velocity, omega));
+  test.slack = std::min(test.slack, advance(contact, contact.a, contact.b, p_OF, velocity,
+                                            omega, Margin::none()));
   return test;
 }
 
@@ -163,19 +210,23 @@ double robust_slack(const StickContact& contact, const Vec2& p_OF, const Vec2& v
   if (velocity.isZero(0.0) && omega == 0.0) return kNan;
   const StickContact weak = weakened(contact, margin);
   const auto slack_at = [&](double c) {
-    return slack_of_drag(weak, p_OF, ellipsoid_drag(c, velocity, omega), margin);
+    return slack_of_drag(weak, {p_OF, p_OF}, ellipsoid_drag(c, velocity, omega), margin,
+                         {margin.tilt, margin.tilt});
   };
   const double c_lo = (1.0 - margin.torque_radius) * contact.c;
   const double c_hi = (1.0 + margin.torque_radius) * contact.c;
   double slack = std::min(slack_at(c_lo), slack_at(c_hi));
   if (contact.is_point) {
+    Margin tilt = Margin::none();  // what concerns the friction cone only
+    tilt.tilt = margin.tilt;
     const Drag nominal = ellipsoid_drag(contact.c, velocity, omega);
     const Effort effort = effort_of(contact, p_OF, nominal, 1.0);
     const Vec2 point = centre_of_pressure(contact, effort);
     return std::min({slack, point_slack(contact, effort, kEllipsoidMoment),
-                     advance(contact, point, point, p_OF, velocity, omega)});
+                     advance(contact, point, point, p_OF, velocity, omega, tilt)});
   }
-  slack = std::min(slack, advance(contact, weak.a, weak.b, p_OF, velocity, omega));
+  slack =
+      std::min(slack, advance(contact, weak.a, weak.b, p_OF, velocity, omega, margin));
   // The moment about an end x has one stationary point in c, where
   // c^2 omega^2 + 2 |v|^2 = omega cross(p - x, v): nearly always outside the box.
   for (const Vec2& end : {weak.a, weak.b}) {
@@ -192,7 +243,7 @@ double robust_slack(const StickContact& contact, const Vec2& p_OF, const Vec2& v
 
 StickTest exact_stick_test(const Model& model, const PushContact& contact, double place,
                            const PlanarPose& X_HO, const Vec2& e, double v, double omega,
-                           const Margin& margin) noexcept {
+                           const Margin& margin, double travelled) noexcept {
   StickTest test;
   if (v == 0.0 && omega == 0.0) return test;
   const PlanarGrasp grasp = grasp_at(model, X_HO, contact.g_O);
@@ -203,18 +254,35 @@ StickTest exact_stick_test(const Model& model, const PushContact& contact, doubl
   StickContact stick = stick_contact(model, contact, place);
   if (stick.c == 0.0) stick.c = model.L;  // a point pad has no torque to count moments in
   const Vec2 p_OF = finger_in_object(X_HO);
-  const auto drag_at = [&](double stretch) {
-    return pad_drag(model, grasp, X_HO.theta, v * e, omega, stretch);
+  const auto drag_at = [&](const Vec2& direction, double stretch) {
+    return pad_drag(model, grasp, X_HO.theta, v * direction, omega, stretch);
   };
-  const Drag nominal = drag_at(1.0);
+  const Drag nominal = drag_at(e, 1.0);
   test = reported(stick, p_OF, nominal, model.F, kPadMoment);
   const StickContact weak = weakened(stick, margin);
-  test.slack = std::min({test.slack, slack_of_drag(weak, p_OF, nominal, margin),
-                         advance(stick, weak.a, weak.b, p_OF, v * e, omega)});
-  if (margin.torque_radius == 0.0) return test;
-  for (const double stretch : {1.0 - margin.torque_radius, 1.0 + margin.torque_radius}) {
-    test.slack =
-        std::min(test.slack, slack_of_drag(weak, p_OF, drag_at(stretch), margin));
+  const Vec2 p_OF_begin = p_OF + travelled * e;
+  const bool turns_drag = model.region.is_isotropic();  // by as much as the motion
+  const FingerPath path{p_OF, p_OF_begin};
+  const Tilts tilts{turns_drag ? margin.tilt : 0.0, margin.tilt};
+  test.slack = std::min({test.slack, slack_of_drag(weak, path, nominal, margin, tilts),
+                         advance(stick, weak.a, weak.b, p_OF, v * e, omega, margin)});
+  const auto keep = [&](const Vec2& direction, double stretch, const FingerPath& at) {
+    const Drag drag = drag_at(direction, stretch);
+    test.slack = std::min(test.slack, slack_of_drag(weak, at, drag, margin, tilts));
+  };
+  const double stretched = margin.torque_radius;
+  if (stretched != 0.0) {
+    keep(e, 1.0 - stretched, path);
+    keep(e, 1.0 + stretched, path);
+  }
+  if (turns_drag || margin.tilt == 0.0 || v == 0.0) return test;
+  for (const double tilt : {-margin.tilt, margin.tilt}) {
+    const Vec2 direction = rotated(tilt, e);
+    const Vec2 there = p_OF_begin - travelled * direction;
+    keep(direction, 1.0, {there, there});
+    if (stretched == 0.0) continue;
+    keep(direction, 1.0 - stretched, {there, there});
+    keep(direction, 1.0 + stretched, {there, there});
   }
   return test;
 }
@@ -223,9 +291,11 @@ double holding_slack(const Model& model, const Vec2& p_OF, const Vec2& g_O,
                      const Margin& margin) noexcept {
   const double weight = (1.0 + margin.force) * model.mass * g_O.norm();
   if (weight == 0.0) return 1.0;
+  const Vec2 lever = model.p_OCom - p_OF;
+  const double turned = std::abs(lever.dot(g_O)) * margin.tilt;
   const double moment =
-      (1.0 + margin.force) * model.mass * std::abs(cross(model.p_OCom - p_OF, g_O)) +
-      margin.centre_of_mass * weight;
+      (1.0 + margin.force) * model.mass * (std::abs(cross(lever, g_O)) + turned) +
+      (margin.centre_of_mass + margin.grasp) * weight;
   const double c = (1.0 - margin.torque_radius) * model.c;
   return 1.0 - std::hypot(weight / model.F, moment / (model.F * c));
 }

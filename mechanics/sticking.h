@@ -20,6 +20,8 @@
 /// sticking_kappas.cpp.
 #pragma once
 
+#include <cmath>
+
 #include "mechanics/model.h"
 
 namespace prehensile {
@@ -35,13 +37,37 @@ struct Margin {
   double torque_radius = 0.10;   ///< relative, of c
   double place = 1e-3;           ///< [m] of the pusher along the face
   double centre_of_mass = 1e-3;  ///< [m]
+  double grasp = 0.0;            ///< [m] of the finger axis in the object, any direction
+  double tilt = 0.0;  ///< [rad] by which the motion and gravity, each on its own, may be
+                      ///< turned against the face: a pusher or an object that is not
+                      ///< quite at its angle in the world
 
   Margin scaled(double factor) const {
-    return {friction * factor, force * factor, torque_radius * factor, place * factor,
-            centre_of_mass * factor};
+    return {friction * factor, force * factor,          torque_radius * factor,
+            place * factor,    centre_of_mass * factor, grasp * factor,
+            tilt * factor};
   }
-  static Margin none() { return {0.0, 0.0, 0.0, 0.0, 0.0}; }
+  static Margin none() { return {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}; }
+  bool is_none() const {
+    return friction == 0.0 && force == 0.0 && torque_radius == 0.0 && place == 0.0 &&
+           centre_of_mass == 0.0 && grasp == 0.0 && tilt == 0.0;
+  }
 };
+
+/// The margin of a push that begins after the finger axis has travelled so far [m] on
+/// tilted pushes.
+inline Margin carried(Margin margin, double travelled) {
+  margin.grasp += margin.tilt * travelled;
+  return margin;
+}
+
+/// Bound from below of the least scalar product of two vectors while one of them turns by
+/// up to `tilt` [rad] either way: `along` is their scalar product, `across` their cross
+/// product. Exact to third order in the tilt; `along` itself without tilt.
+inline double least_turned(double along, double across, double tilt) noexcept {
+  const double kept = along > 0.0 ? along * (1.0 - 0.5 * tilt * tilt) : along;
+  return kept - std::abs(across) * tilt;
+}
 
 /// A contact compiled for the sticking tests: ends in O, gravity as acceleration over F.
 ///
@@ -119,14 +145,16 @@ double robust_slack(const StickContact& contact, const Vec2& p_OF, const Vec2& v
 
 /// One instant with the real pad region at this pose: forces nominal, slack worst over
 /// the box, where the torque radius scales the pad about the finger axis. Also holds for
-/// pads that are not isotropic. The object moves with (v e, omega) relative to the hand;
+/// pads that are not isotropic, for which a tilt of the motion is looked at at its ends
+/// and in its middle. `travelled` [m]: path of the finger axis since the push began, all
+/// of which was tilted. The object moves with (v e, omega) relative to the hand;
 /// v == 0 turns it about the finger axis; NaN where nothing moves. Slack -infinity where
 /// the pads have lost the face. At a point pusher a moment within 1e-3 F c counts as met:
 /// the quadrature of a disc is isotropic to that order only. A pad point at the centre of
 /// rotation, whose friction has no direction, counts as zero. No heap.
 StickTest exact_stick_test(const Model& model, const PushContact& contact, double place,
                            const PlanarPose& X_HO, const Vec2& e, double v, double omega,
-                           const Margin& margin) noexcept;
+                           const Margin& margin, double travelled = 0.0) noexcept;
 
 /// The grasp alone holds gravity g_O at this place, by the ellipsoid with this margin:
 /// 1 - load, positive: held. The load is convex in p_OF: held at both ends of a straight

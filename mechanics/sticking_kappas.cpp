@@ -153,10 +153,14 @@ void keep_cone(const StickContact& contact, const Vec2& e, const Margin& margin,
     if (radius.lo == radius.hi) return;
     kept.keep(Intersection::kFriction, solutions, 1.0 / radius.lo);
   };
-  keep_row(mu * e_n - e_t, mu * gamma_n - gamma_t);
-  keep_row(mu * e_n + e_t, mu * gamma_n + gamma_t);
-  if (mu == 0.0)
-    keep_row(e_n, gamma_n);  // the edges of a cone without width allow pulling
+  const auto keep_edge = [&](double n, double t) {  // the row n, t of force >= 0
+    keep_row(least_turned(n * e_n + t * e_t, n * e_t - t * e_n, margin.tilt),
+             -least_turned(-(n * gamma_n + t * gamma_t), n * gamma_t - t * gamma_n,
+                           margin.tilt));
+  };
+  keep_edge(mu, -1.0);
+  keep_edge(mu, 1.0);
+  if (mu == 0.0) keep_edge(1.0, 0.0);  // the edges of a cone without width allow pulling
 }
 
 /// One face end over the box: { kappa : c kappa + A >= B sigma } for end b; the mirror
@@ -177,10 +181,12 @@ void keep_end(double c, double A, double B, const Factors& radius, Keep&& keep) 
 
 /// The kappas with which the pusher recedes at both face ends: an open gap, perhaps
 /// without end. The normal rate at x is e_n - kappa s_x / c with s_x the place of x along
-/// t from the finger axis; omega/|v| = kappa / c holds for all members of the box.
-Gap receding(const StickContact& contact, const Vec2& p_OF, const Vec2& e, double place) {
+/// t from the finger axis, `place` [m] uncertain; omega/|v| = kappa / c holds for all
+/// members of the box.
+Gap receding(const StickContact& contact, const Vec2& p_OF, const Vec2& e, double place,
+             double tilt) {
   Gap gap{-kInfinity, kInfinity};
-  const double rate = contact.c * e.dot(contact.n);
+  const double rate = contact.c * least_turned(e.dot(contact.n), e.dot(contact.t), tilt);
   for (const double s : {(contact.a - p_OF).dot(contact.t) + place,
                          (contact.b - p_OF).dot(contact.t) - place}) {
     if (s > 0.0) gap.lo = std::max(gap.lo, rate / s);
@@ -190,8 +196,10 @@ Gap receding(const StickContact& contact, const Vec2& p_OF, const Vec2& e, doubl
   return gap;
 }
 
-/// Both face ends over the box. The moments are affine in m/F, in the place of the pusher
-/// and in the centre of mass, so the worst of each is known beforehand.
+/// Both face ends over the box. The moments are affine in m/F, in the places of pusher,
+/// finger axis and centre of mass, so the worst of each is known beforehand. The finger
+/// axis counts for the drag only: of gravity the lever about a face end is that of the
+/// centre of mass.
 void keep_ends(const StickContact& contact, const Vec2& p_OF, const Vec2& e,
                const Margin& margin, Intersection& kept) {
   const Factors force(margin.force);
@@ -199,11 +207,14 @@ void keep_ends(const StickContact& contact, const Vec2& p_OF, const Vec2& e,
   const Vec2 a = contact.a + margin.place * contact.t;
   const Vec2 b = contact.b - margin.place * contact.t;
   const double shift = margin.centre_of_mass * contact.gamma.norm();
-  const double A_a = cross(p_OF - a, e);
-  const double A_b = cross(p_OF - b, e);
-  const double B_a = shift - cross(contact.p_OCom - a, contact.gamma);
-  const double B_b = shift + cross(contact.p_OCom - b, contact.gamma);
-  keep_end(contact.c, -A_a, force.worst(B_a), radius,
+  const auto turned = [&](double sign, const Vec2& lever, const Vec2& vector) {
+    return least_turned(sign * cross(lever, vector), lever.dot(vector), margin.tilt);
+  };
+  const double A_a = turned(-1.0, p_OF - a, e) - margin.grasp;
+  const double A_b = turned(1.0, p_OF - b, e) - margin.grasp;
+  const double B_a = shift - turned(1.0, contact.p_OCom - a, contact.gamma);
+  const double B_b = shift - turned(-1.0, contact.p_OCom - b, contact.gamma);
+  keep_end(contact.c, A_a, force.worst(B_a), radius,
            [&](const Solutions& solutions, double scale) {
              kept.keep(Intersection::kEndA, mirrored(solutions), scale);
            });
@@ -232,8 +243,9 @@ KappaSet robust_kappas(const StickContact& contact, const Vec2& p_OF, const Vec2
   Intersection kept;
   keep_cone(contact, e, margin, kept);
   keep_ends(contact, p_OF, e, contact.is_point ? Margin::none() : margin, kept);
-  const double place = contact.is_point ? 0.0 : margin.place;
-  kept.keep(Intersection::kAdvance, {.gap = receding(contact, p_OF, e, place)}, 1.0);
+  const double place = contact.is_point ? 0.0 : margin.place + margin.grasp;
+  kept.keep(Intersection::kAdvance,
+            {.gap = receding(contact, p_OF, e, place, margin.tilt)}, 1.0);
   return kept.set();
 }
 

@@ -107,18 +107,32 @@ bool make_leg(const Steering& steering, int contact, const Stop& from, const Sto
   const SearchModel& search = steering.search;
   const Vec2 d = to.p_OF - from.p_OF;
   const double length = d.norm();
-  if (length < kShortestLeg || !is_held(search, contact, from) ||
-      !is_held(search, contact, to)) {
+  if (length < kShortestLeg) return false;
+  if (!is_held(search, contact, from) || !is_held(search, contact, to)) {
+    work.obstacles.add(Obstacle::kGravity);
     return false;
   }
-  if (steering.measured) {
+  if (steering.envelope) {
+    ++work.stick_tests;
+    leg.kappas =
+        steering.envelope->kappas(search.contacts[contact].stick, from.p_OF, to.p_OF);
+  } else if (steering.real_pads) {  // slow: loops look at their limits too rarely
+    if (work.interrupted()) return false;
+    if (work.meter) work.meter->tick(work.stick_tests + work.propagations);
     leg.kappas = measured_kappas(search, contact, from.p_OF, to.p_OF, work);
   } else {
     ++work.stick_tests;
     const StickContact& stick = search.contacts[contact].stick;
-    leg.kappas = robust_kappas(stick, from.p_OF, -d / length, search.margin);
+    leg.kappas =
+        robust_kappas(stick, from.p_OF, -d / length, search.margin_from(from.p_OF));
   }
-  if (leg.kappas.empty() || !segment_on_object(*search.model, from.p_OF, to.p_OF)) {
+  if (leg.kappas.empty()) {
+    work.obstacles.add(obstacle_of(search.contacts[contact], from.p_OF, to.p_OF));
+    return false;
+  }
+  if (!path_on_object(*search.model, {from.p_OF, from.given}, {to.p_OF, to.given},
+                      search.margin_from(from.p_OF))) {
+    work.obstacles.add(Obstacle::kOffObject);
     return false;
   }
   for (int i = 0; i < leg.kappas.count; ++i) {
@@ -204,7 +218,10 @@ void centre_chain(const SearchModel& search, double dtheta, double share,
 
 bool make_chain_stick(const SearchModel& search, double theta_start, double dtheta,
                       Chain& chain, Work& work) noexcept {
-  if (!solve_chain(search, dtheta, chain)) return false;
+  if (!solve_chain(search, dtheta, chain)) {
+    work.obstacles.add(Obstacle::kRotation);
+    return false;
+  }
   const auto sticks = [&] { return chain_passes(search, chain, theta_start, work); };
   if (sticks()) return true;
   if (chain.count == 1) return false;
@@ -214,17 +231,29 @@ bool make_chain_stick(const SearchModel& search, double theta_start, double dthe
   return sticks();
 }
 
+bool move_passes(const SearchModel& search, const Move& move, Work& work) noexcept {
+  return segment_on_object(*search.model, move.from.p_OF, move.to.p_OF) &&
+         exact_slack(search, move, work) >= -kStickTolerance &&
+         pads_hold_gravity(search, move);
+}
+
 bool chain_passes(const SearchModel& search, const Chain& chain, double theta_start,
                   Work& work) noexcept {
   std::array<Move, Chain::kMaxLegs> moves;
   double theta = theta_start;
   for (int k = 0; k < chain.count; ++k) {
     moves[k] = move_of(search, chain, k, theta);
-    if (!(exact_slack(search, moves[k], work) >= -kStickTolerance)) return false;
+    if (!(exact_slack(search, moves[k], work) >= -kStickTolerance)) {
+      work.obstacles.add(Obstacle::kRealPads);
+      return false;
+    }
     theta = moves[k].to.theta;
   }
-  return std::all_of(moves.begin(), moves.begin() + chain.count,
-                     [&](const Move& move) { return pads_hold_gravity(search, move); });
+  const bool held =
+      std::all_of(moves.begin(), moves.begin() + chain.count,
+                  [&](const Move& move) { return pads_hold_gravity(search, move); });
+  if (!held) work.obstacles.add(Obstacle::kGravity);
+  return held;
 }
 
 }  // namespace prehensile

@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "planner/roll_step.h"
+#include "planner/space_margin.h"
+#include "planner/steering.h"
 
 namespace prehensile {
 namespace {
@@ -54,15 +56,42 @@ double push_slack(const Model& model, const Grasp& start, const Push& push,
     const double s = static_cast<double>(i) / (points - 1);
     const PlanarPose X_HO = pose_from_finger(p_OF - s * linear.travel * linear.e,
                                              start.X_HO.theta + s * linear.turn);
-    const StickTest test = exact_stick_test(model, contact, linear.place, X_HO, linear.e,
-                                            linear.travel, linear.turn, margin);
+    const StickTest test =
+        exact_stick_test(model, contact, linear.place, X_HO, linear.e, linear.travel,
+                         linear.turn, margin, s * linear.travel);
     slack = std::min(slack, test.slack);
   }
   return slack;
 }
 
+double travel_in_pad_plane(const Push& push) {
+  return std::holds_alternative<Roll>(push) ? 0.0 : as_linear(push).travel;
+}
+
+bool stays_on_object(const Model& model, const Plan& plan, std::string* why) {
+  double travelled = 0.0;
+  for (std::size_t i = 0; i < plan.pushes.size(); ++i) {
+    const PlannedPush& push = plan.pushes[i];
+    const Vec2 from = finger_in_object(push.start.X_HO);
+    const Vec2 to = finger_in_object(push.end.X_HO);
+    const bool stays =
+        path_on_object(model, {from, travelled == 0.0},
+                       {to, to == finger_in_object(plan.pushes.back().end.X_HO)},
+                       carried(plan.margin, travelled));
+    travelled += travel_in_pad_plane(push.push);
+    if (stays) continue;
+    if (why) {
+      *why = "push " + std::to_string(i + 1) +
+             ": the pads may leave the object within the margin";
+    }
+    return false;
+  }
+  return true;
+}
+
 bool check_exactly(const Model& model, const TransitionOptions& options, Plan& plan,
                    std::string* why) {
+  double travelled = 0.0;
   for (std::size_t i = 0; i < plan.pushes.size(); ++i) {
     PlannedPush& push = plan.pushes[i];
     const Transition done = apply(model, push.start, push.push, options);
@@ -70,13 +99,16 @@ bool check_exactly(const Model& model, const TransitionOptions& options, Plan& p
     push.push_force = done.max_push_force;
     push.certificate = done.worst_certificate;
     push.error_estimate = done.error_estimate;
-    push.slack = push_slack(model, push.start, push.push, plan.margin);
-    const std::string fault = fault_of(push, done, options);
+    push.slack =
+        push_slack(model, push.start, push.push, carried(plan.margin, travelled));
+    travelled += travel_in_pad_plane(push.push);
+    std::string fault = fault_of(push, done, options);
+    if (fault.empty()) fault = space_margin_fault(model, push, plan.margin, options);
     if (fault.empty()) continue;
     if (why) *why = "push " + std::to_string(i + 1) + ": " + fault;
     return false;
   }
-  return true;
+  return plan.margin.grasp + plan.margin.tilt == 0.0 || stays_on_object(model, plan, why);
 }
 
 }  // namespace prehensile

@@ -1,5 +1,7 @@
 /// The exact check of a plan found by a search: every push is done by the transition
-/// function with the real pads, and sticks over the margin box at points along it.
+/// function with the real pads, in space where it needs that, and sticks over the margin
+/// box at points along it. In space members of the box do the push as well
+/// (space_margin.h).
 #pragma once
 
 #include <string>
@@ -9,10 +11,17 @@
 namespace prehensile {
 
 /// Least slack over the margin box along a push that starts at this grasp, by the real
-/// pad; points every 2 mm and 0.1 rad, at most 50. Infinity for a roll, which has no
-/// margin box.
+/// pad, in the pad plane; points every 2 mm and 0.1 rad, at most 50. Infinity for a roll,
+/// which has no margin box.
 double push_slack(const Model& model, const Grasp& start, const Push& push,
                   const Margin& margin);
+
+/// Whether the pads stay on the object during the pushes of a plan over its margin, as
+/// far as its start and its goal allow; also says which push does not.
+bool stays_on_object(const Model& model, const Plan& plan, std::string* why);
+
+/// Path of the finger axis in the object [m]; 0 for a roll.
+double travel_in_pad_plane(const Push& push);
 
 /// Fills force, slack, certificate and error estimate of every push and counts instants.
 /// True if each push completes without slip, certified, with slack >= 0 over plan.margin,

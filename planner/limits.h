@@ -14,6 +14,9 @@ class Limits {
   Limits(const PlanOptions& options, const Work& work)
       : options_(options), work_(work), begin_(std::chrono::steady_clock::now()) {}
 
+  /// Whether to search on after the first plan.
+  bool improves() const { return options_.improve; }
+
   bool stopped() const { return options_.stop && options_.stop->load(); }
 
   /// The clock is read only if there is a time limit: it decides nothing otherwise.
@@ -23,7 +26,10 @@ class Limits {
     return spent.count() > options_.time_limit;
   }
 
-  bool reached() const { return work_.spent() || stopped() || out_of_time(); }
+  bool reached() const {
+    if (work_.meter) work_.meter->tick(work_.stick_tests + work_.propagations);
+    return work_.spent() || stopped() || out_of_time();
+  }
 
  private:
   const PlanOptions& options_;

@@ -28,7 +28,8 @@ class PadTrial {
         from_(from),
         to_(to),
         e_((from - to).normalized()),
-        work_(work) {
+        work_(work),
+        margin_(search.margin_from(from)) {
     const bool disc = std::holds_alternative<DiscPad>(search.model->scene.gripper.pad);
     orientations_ = disc ? 1 : kOrientations;
   }
@@ -36,9 +37,10 @@ class PadTrial {
   bool sticks(double kappa) {
     for (int i = 0; i < kPoints; ++i) {
       const Vec2 p_OF = from_ + i * (to_ - from_) / (kPoints - 1);
+      const double travelled = (p_OF - from_).norm();
       for (int k = 0; k < orientations_; ++k) {
         const double theta = std::numbers::pi * k / orientations_;
-        if (!sticks_at(pose_from_finger(p_OF, theta), kappa)) return false;
+        if (!sticks_at(pose_from_finger(p_OF, theta), kappa, travelled)) return false;
       }
     }
     return true;
@@ -54,12 +56,12 @@ class PadTrial {
   }
 
  private:
-  bool sticks_at(const PlanarPose& X_HO, double kappa) {
+  bool sticks_at(const PlanarPose& X_HO, double kappa, double travelled) {
     ++work_.stick_tests;
     const Model& model = *search_.model;
     const StickTest test =
         exact_stick_test(model, model.contacts[pusher_.contact], pusher_.place, X_HO, e_,
-                         1.0, kappa / model.c, search_.margin);
+                         1.0, kappa / model.c, margin_, travelled);
     return test.slack >= 0.0;
   }
 
@@ -67,6 +69,7 @@ class PadTrial {
   const SearchContact& pusher_;
   Vec2 from_, to_, e_;
   Work& work_;
+  Margin margin_;
   int orientations_;
 };
 

@@ -62,6 +62,42 @@ std::string_view name(Proof::Kind kind) {
   return "unknown";
 }
 
+std::string_view name(Promise promise) {
+  switch (promise) {
+    case Promise::kNominal:
+      return "nominal";
+    case Promise::kNominalOnly:
+      return "nominal only";
+    case Promise::kMargin:
+      return "margin";
+    case Promise::kScene:
+      return "scene uncertainty";
+  }
+  return "unknown";
+}
+
+std::string_view name(Obstacle obstacle) {
+  switch (obstacle) {
+    case Obstacle::kOffObject:
+      return "the pads would leave the object";
+    case Obstacle::kGravity:
+      return "the grasp alone would not hold the object";
+    case Obstacle::kBackwards:
+      return "the motion leads away from the pusher";
+    case Obstacle::kFrictionCone:
+      return "the motion lies outside the friction cone of the pusher";
+    case Obstacle::kFaceEnds:
+      return "the push would have to act beyond the ends of the face";
+    case Obstacle::kRotation:
+      return "the pushes cannot turn the object as far as needed";
+    case Obstacle::kRealPads:
+      return "the push slips with the real pads";
+    case Obstacle::kCount:
+      break;
+  }
+  return "unknown";
+}
+
 void account(const Model& model, Plan& plan) {
   constexpr double kSamePusherCost = 0.1;  // of the published planners
   plan.placements = 0.0;

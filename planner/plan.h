@@ -7,11 +7,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "mechanics/sticking.h"
+#include "planner/obstacle.h"
 #include "primitives/push.h"
 #include "primitives/transition.h"
 
@@ -58,6 +60,29 @@ struct Proof {
 };
 std::string_view name(Proof::Kind kind);
 
+/// What a plan promises to survive.
+enum class Promise {
+  kNominal,      ///< as asked: only the values of the scene
+  kNominalOnly,  ///< no plan was found for the margin asked for; this one has none
+  kMargin,       ///< the margin given in the options, or the usual box
+  kScene,        ///< the uncertainty that the scene states
+};
+std::string_view name(Promise promise);
+
+/// A change of the scene or of the options that was planned for and worked.
+struct ProposedChange {
+  std::string what;    ///< for people
+  std::string option;  ///< of the command line that makes it; empty: none does
+  std::string pusher;  ///< to add to the scene file's pushers; empty: none
+  double cost = kNan;  ///< J of the plan found with it
+};
+
+/// Why there is no plan, or only a nominal one, and what would help (advice.h).
+struct Explanation {
+  std::string text;  ///< one paragraph
+  std::vector<ProposedChange> changes;
+};
+
 struct Plan {
   PlanStatus status = PlanStatus::kNotRun;
   std::string message;
@@ -66,6 +91,7 @@ struct Plan {
   Grasp start, goal;  ///< goal: the member of the goal set that was reached
   std::vector<PlannedPush> pushes;
   Margin margin;  ///< box of uncertainty that every push survives
+  Promise promise = Promise::kMargin;
 
   double cost = kNan;         ///< J
   double placements = 0;      ///< S
@@ -75,10 +101,13 @@ struct Plan {
 
   std::string planner;  ///< which planner found it
   std::uint64_t seed = 0;
-  std::int64_t stick_tests = 0;   ///< work of the own planner
-  std::int64_t propagations = 0;  ///< work of OMPL's planners
-  std::int64_t instants = 0;      ///< exact mechanics calls in checking
-  double seconds = kNan;          ///< wall time, recorded only
+  std::int64_t stick_tests = 0;            ///< work of the own planner
+  std::int64_t propagations = 0;           ///< work of OMPL's planners
+  std::int64_t instants = 0;               ///< exact mechanics calls in checking
+  double seconds = kNan;                   ///< wall time, recorded only
+  Obstacles obstacles;                     ///< met by the own search
+  std::optional<Explanation> explanation;  ///< only if asked for, see advice.h
+  bool stopped_early = false;  ///< interrupted: the best plan found until then
 
   bool usable() const {
     return status == PlanStatus::kReachedGoal || status == PlanStatus::kNothingToDo;

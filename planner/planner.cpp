@@ -9,11 +9,15 @@
 #include "planner/polish.h"
 #include "planner/push_search.h"
 #include "planner/refuse.h"
+#include "primitives/uncertainty.h"
 
 namespace prehensile {
 namespace {
 
 constexpr const char* kOwnPlanner = "push";
+
+/// Of a time limit, for plans with a margin; the rest is for those without.
+constexpr double kShareOfTime = 0.7;
 
 Plan search_plan(const SearchModel& search, const PlanOptions& options, Work& work) {
   const Scene& scene = search.model->scene;
@@ -35,6 +39,7 @@ void finish(const SearchModel& search, const PlanOptions& options, const Limits&
             Work& work, Plan& plan) {
   const Model& model = *search.model;
   std::string why;
+  if (work.meter) work.meter->enter("polish");
   if (options.polish) {
     Plan shorter = plan;
     polish(search, limits, work, shorter);
@@ -48,9 +53,42 @@ void finish(const SearchModel& search, const PlanOptions& options, const Limits&
   set_undecided(plan, "the plan found fails its exact check: " + why);
 }
 
-/// One search for one margin, finished and checked.
-Plan attempt(const Model& model, const PlanOptions& options, double scale, Work& work) {
-  const SearchModel search = prepare_search(model, options.margin.scaled(scale));
+/// What one search keeps clear of, and what its plan must then survive.
+struct Clearance {
+  Margin margin;
+  double extra_grasp = 0.0;  ///< [m] for what longer ways carry the finger axis off
+};
+
+/// By how much the ways of a plan carry the finger axis further off than the straight
+/// ones that the search counts with [m].
+double uncounted_drift(const Model& model, const Plan& plan) {
+  const Vec2 start = finger_in_object(model.scene.start.X_HO);
+  double travelled = 0.0;
+  double most = 0.0;
+  for (const PlannedPush& push : plan.pushes) {
+    const double straight = (finger_in_object(push.start.X_HO) - start).norm();
+    most = std::max(most, travelled - straight);
+    travelled += travel_in_pad_plane(push.push);
+  }
+  return plan.margin.tilt * most;
+}
+
+/// What a search found before anything was checked.
+struct Found {
+  Plan plan;
+  double drift = 0.0;  ///< [m] see above
+};
+
+/// One search, finished and checked.
+Plan attempt(const Model& model, const PlanOptions& options, const Clearance& clearance,
+             Work& work, Found& found) {
+  Margin kept = clearance.margin;
+  kept.grasp += clearance.extra_grasp;
+  const SearchModel search = prepare_search(model, kept);
+  if (work.meter) {
+    work.meter->enter(kept.is_none() ? "search without margin" : "search");
+    work.meter->forget_best();
+  }
   if (search.contacts.empty()) {
     Plan plan = blank_plan(search, model.scene.start, options);
     plan.status = PlanStatus::kUnsupported;
@@ -60,7 +98,10 @@ Plan attempt(const Model& model, const PlanOptions& options, double scale, Work&
   }
   const Limits limits(options, work);
   Plan plan = search_plan(search, options, work);
+  plan.margin = clearance.margin;
+  found.drift = uncounted_drift(model, plan);
   if (plan.status == PlanStatus::kReachedGoal) {
+    found.plan = plan;
     finish(search, options, limits, work, plan);
     if (plan.usable() && !reaches(*model.scene.goal, plan.goal)) {
       set_undecided(plan, "the plan found ends beside the goal");
@@ -69,25 +110,83 @@ Plan attempt(const Model& model, const PlanOptions& options, double scale, Work&
   return plan;
 }
 
-/// A plan that fails its exact check is searched again with double the margin.
-Plan search_and_check(const Model& model, const PlanOptions& options, Work& work) {
-  Plan plan = attempt(model, options, 1.0, work);
-  const bool failed_check = plan.instants > 0 && !plan.usable();
-  if (failed_check) {
-    Plan again = attempt(model, options, 2.0, work);
-    again.instants += plan.instants;
-    if (again.usable()) return again;
-    plan.instants = again.instants;
-    plan.message += "; with double the margin: " + again.message;
+/// A plan that fails its exact check is searched again, first farther from slipping by
+/// what its detours carry the finger axis off, then with double the margin.
+Plan search_and_check(const Model& model, const PlanOptions& options,
+                      const Margin& margin, Work& work, Found& found) {
+  Plan plan = attempt(model, options, {margin}, work, found);
+  const auto failed_check = [&] { return plan.instants > 0 && !plan.usable(); };
+  const auto again = [&](const Clearance& clearance, const char* how) {
+    Plan other = attempt(model, options, clearance, work, found);
+    other.instants += plan.instants;
+    if (!other.usable()) {
+      plan.instants = other.instants;
+      plan.message += how + other.message;
+      return;
+    }
+    plan = std::move(other);
+  };
+  if (failed_check() && found.drift > 0.0) {
+    again({margin, 1.5 * found.drift}, "; with more room for drift: ");
   }
+  if (failed_check()) again({margin.scaled(2.0)}, "; with double the margin: ");
   return plan;
+}
+
+/// After an interruption: the plan that was found last, if it holds without a margin.
+void keep_as_nominal(const Model& model, const PlanOptions& options, const Found& found,
+                     Plan& plan) {
+  Plan nominal = found.plan;
+  nominal.margin = Margin::none();
+  if (nominal.pushes.empty() ||
+      !check_exactly(model, options.transition, nominal, nullptr) ||
+      !reaches(*model.scene.goal, nominal.goal)) {
+    return;
+  }
+  nominal.instants += plan.instants;
+  nominal.promise = Promise::kNominalOnly;
+  plan = std::move(nominal);
+}
+
+/// With the margin, and without if that finds nothing.
+Plan search_with_and_without(const Model& model, const PlanOptions& options, Work& work) {
+  const Margin margin = options.margin.value_or(margin_of(model, usual_box()));
+  const bool nominal = margin.is_none();
+  const bool falls_back = options.nominal_if_needed && !nominal;
+  PlanOptions robust = options;
+  if (falls_back) robust.time_limit *= kShareOfTime;
+  Found found;
+  Plan plan = search_and_check(model, robust, margin, work, found);
+  plan.promise = nominal ? Promise::kNominal : options.promise;
+  const bool undecided =
+      plan.status == PlanStatus::kBudgetSpent || plan.status == PlanStatus::kStopped;
+  if (!falls_back || !undecided) return plan;
+  if (Limits(options, work).stopped()) {
+    keep_as_nominal(model, options, found, plan);
+    return plan;
+  }
+  PlanOptions rest = options;
+  rest.time_limit *= 1.0 - kShareOfTime;
+  work.budget += work.stick_tests + work.propagations;
+  Plan without = search_and_check(model, rest, Margin::none(), work, found);
+  without.instants += plan.instants;
+  if (!without.usable()) {
+    plan.instants = without.instants;
+    plan.message = "with a margin and without: " + without.message;
+    return plan;
+  }
+  without.promise = Promise::kNominalOnly;
+  without.message = "no plan was found that survives the margin (" + plan.message +
+                    "); this one is nominal: it holds for the values of the scene only";
+  return without;
 }
 
 Plan decide(const Model& model, const PlanOptions& options) {
   Plan plan;
   plan.start = model.scene.start;
   plan.goal = model.scene.start;
-  plan.margin = options.margin;
+  plan.margin = options.margin.value_or(margin_of(model, usual_box()));
+  plan.promise = plan.margin.is_none() ? Promise::kNominal : options.promise;
   plan.planner = options.planner;
   plan.seed = options.seed;
   const std::vector<std::string> names = planner_names();
@@ -111,10 +210,16 @@ Plan decide(const Model& model, const PlanOptions& options) {
     plan.message = plan.proof.text;
     return plan;
   }
+  ProgressMeter meter(options.progress);
   Work work{.budget = options.budget};
-  plan = search_and_check(model, options, work);
+  if (options.progress) work.meter = &meter;
+  work.stop = options.stop;
+  plan = search_with_and_without(model, options, work);
   plan.stick_tests = work.stick_tests;
   plan.propagations = work.propagations;
+  plan.obstacles = work.obstacles;
+  plan.stopped_early = plan.usable() && options.stop && options.stop->load();
+  if (plan.stopped_early) plan.message = "stopped: the best plan found until then";
   return plan;
 }
 

@@ -4,10 +4,12 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "planner/plan.h"
+#include "planner/progress.h"
 
 namespace prehensile {
 
@@ -17,10 +19,17 @@ struct PlanOptions {
   std::int64_t budget =
       20'000'000;           ///< stick tests (own planner) or propagations (stock)
   double time_limit = 0.0;  ///< [s]; 0: none. The only way in which the clock decides
-  Margin margin;            ///< plan for this box; doubled once if the exact check fails
-  bool polish = true;       ///< shorten the plan found with NLopt, where built
-  TransitionOptions transition;             ///< of the exact check
-  const std::atomic<bool>* stop = nullptr;  ///< set by a signal handler: give up cleanly
+  /// Plan for this box, doubled once if the exact check fails; unset: for usual_box().
+  std::optional<Margin> margin;
+  Promise promise = Promise::kMargin;  ///< what the margin is, for the plan's record
+  /// Where no plan survives the margin, look for one that has none and say so.
+  bool nominal_if_needed = true;
+  bool improve = false;  ///< search on, with the whole budget, after the first plan
+  bool polish = true;    ///< shorten the plan found with NLopt, where built
+  TransitionOptions transition;  ///< of the exact check
+  /// Set by a signal handler: give up cleanly, with the best plan found so far.
+  const std::atomic<bool>* stop = nullptr;
+  ProgressCallback progress;  ///< told now and then how far the search is; may be empty
 };
 
 /// Names that PlanOptions::planner accepts in this build.

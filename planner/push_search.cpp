@@ -6,11 +6,15 @@
 
 #include "planner/bounds.h"
 #include "planner/chain_search.h"
+#include "planner/fan_search.h"
 #include "planner/holding.h"
 #include "planner/roll_step.h"
+#include "planner/shorten.h"
 
 namespace prehensile {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double flat_distance(const SearchModel& search, const FlatState& a, const FlatState& b) {
   return std::hypot((b.p_OF - a.p_OF).norm(), search.model->c * (b.theta - a.theta));
@@ -24,6 +28,9 @@ std::optional<Move> best_contact(const SearchModel& search, const FlatState& fro
   for (std::size_t i = 0; i < search.contacts.size(); ++i) {
     const Move move{static_cast<int>(i), from, to};
     const double slack = exact_slack(search, move, work);
+    if (!(slack >= -kStickTolerance)) {
+      work.obstacles.add(obstacle_of(search.contacts[i], from.p_OF, to.p_OF));
+    }
     if (!(slack > best_slack) || !pads_hold_gravity(search, move)) continue;
     best_slack = slack;
     best = move;
@@ -41,6 +48,38 @@ void append_chain(const SearchModel& search, const FlatState& start, const Chain
   }
 }
 
+/// The stages that know the pads themselves: they cost more, and find what the ellipsoid
+/// hides. `best`: the plan so far, to be improved.
+bool plan_with_real_pads(const SearchModel& search, const FlatState& from,
+                         const GoalPlaces& goals, std::optional<FoundChain> best,
+                         const Limits& limits, Work& work, Plan& plan) {
+  const bool flat = !can_roll(search.model->scene.object);
+  std::optional<PadEnvelope> envelope;
+  if (flat) envelope.emplace(*search.model, search.margin);
+  const PadEnvelope* pads = envelope ? &*envelope : nullptr;
+  if (!best) {
+    best = search_chains_of_real_pads(search, from, goals, pads, limits, work);
+  }
+  std::optional<std::vector<Move>> moves;
+  if (!best && pads) moves = search_fan(search, *pads, from, goals, limits, work);
+  const double to_beat = best    ? best->chain.cost
+                         : moves ? cost_of(search, *moves)
+                                 : kInfinity;
+  if (moves && work.meter) work.meter->found(to_beat);
+  if (!best || limits.improves()) {
+    const auto found =
+        search_long_chains(search, from, goals, pads, to_beat, limits, work);
+    if (found) best = found;
+  }
+  if (best) {
+    append_chain(search, from, best->chain, plan);
+    return true;
+  }
+  if (!moves) return false;
+  for (const Move& move : *moves) append_move(search, move, plan);
+  return true;
+}
+
 /// Fills the pushes in the pad plane; false if none were found.
 bool plan_in_plane(const SearchModel& search, const Grasp& start, const Goal& goal,
                    const Limits& limits, Work& work, Plan& plan) {
@@ -51,10 +90,13 @@ bool plan_in_plane(const SearchModel& search, const Grasp& start, const Goal& go
     return true;
   }
   const double bound = lower_bound(*search.model, start, goal);
+  if (work.meter) work.meter->bound(bound);
   const auto found = search_chains(search, from, goals, bound, limits, work);
-  if (!found) return false;
-  append_chain(search, from, found->chain, plan);
-  return true;
+  if (found && !(limits.improves() && found->chain.cost > kGoodEnough * bound)) {
+    append_chain(search, from, found->chain, plan);
+    return true;
+  }
+  return plan_with_real_pads(search, from, goals, found, limits, work, plan);
 }
 
 void say_undecided(const Limits& limits, Plan& plan) {
@@ -62,8 +104,9 @@ void say_undecided(const Limits& limits, Plan& plan) {
   plan.message =
       limits.stopped()       ? "stopped before a plan was found"
       : limits.out_of_time() ? "no plan found within the time limit"
-      : limits.reached()
-          ? "no plan found within the work budget"
+      : limits.reached()     ? "no plan found within the work budget"
+      : plan.margin.is_none()
+          ? "every stage of the search ended without a plan"
           : "every stage of the search ended without a plan within the margin; a "
             "smaller margin may admit one";
 }
@@ -73,7 +116,7 @@ void say_undecided(const Limits& limits, Plan& plan) {
 std::optional<Move> direct_push(const SearchModel& search, const FlatState& start,
                                 const GoalPlaces& goals, Work& work) noexcept {
   std::optional<Move> best;
-  double best_distance = std::numeric_limits<double>::infinity();
+  double best_distance = kInfinity;
   for (int i = 0; i < goals.count; ++i) {
     const GoalPlace& place = goals.places[i];
     bool on_object = false;
@@ -81,7 +124,8 @@ std::optional<Move> direct_push(const SearchModel& search, const FlatState& star
       const FlatState end{place.p_OF, place.theta[j]};
       const double distance = flat_distance(search, start, end);
       if (distance >= best_distance) continue;
-      on_object = on_object || segment_on_object(*search.model, start.p_OF, place.p_OF);
+      on_object = on_object || path_on_object(*search.model, {start.p_OF, true},
+                                              {place.p_OF, true}, search.margin);
       if (!on_object) break;
       if (const auto move = best_contact(search, start, end, work)) {
         best = move;

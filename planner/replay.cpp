@@ -6,6 +6,7 @@
 #include "planner/bounds.h"
 #include "planner/exact_check.h"
 #include "planner/planner.h"
+#include "planner/space_margin.h"
 
 namespace prehensile {
 namespace {
@@ -87,13 +88,18 @@ ReplayedPush replay_push(const Model& model, const Margin& margin, const Grasp& 
       std::abs(done.max_push_force - planned.push_force) / done.max_push_force;
   replayed.slack = push_slack(model, start, planned.push, margin);
   replayed.why = disagreement(replayed, options);
+  if (replayed.why.empty()) {
+    const PlannedPush here{.push = planned.push, .start = start};
+    replayed.why = space_margin_fault(model, here, margin, options.transition);
+  }
   replayed.agrees = replayed.why.empty();
   return replayed;
 }
 
 bool margin_is_sound(const Margin& margin) {
   return margin.friction >= 0.0 && margin.force >= 0.0 && margin.torque_radius >= 0.0 &&
-         margin.place >= 0.0 && margin.centre_of_mass >= 0.0;
+         margin.place >= 0.0 && margin.centre_of_mass >= 0.0 && margin.grasp >= 0.0 &&
+         margin.tilt >= 0.0;
 }
 
 bool agrees(double stated, double computed) {
@@ -127,7 +133,8 @@ bool poses_connect(const Plan& plan, const ReplayOptions& options) {
   return true;
 }
 
-std::string first_disagreement(const Plan& plan, const Replay& replay) {
+std::string first_disagreement(const Model& model, const Plan& plan,
+                               const Replay& replay) {
   if (!plan.usable()) return "the plan does not claim to reach its goal";
   if (!margin_is_sound(plan.margin)) return "the margin is not a box of uncertainty";
   if (!replay.starts_right) return "the plan does not start at the start of the scene";
@@ -138,6 +145,9 @@ std::string first_disagreement(const Plan& plan, const Replay& replay) {
     }
   }
   if (replay.pushes.size() < plan.pushes.size()) return "a push cannot be replayed";
+  std::string why;
+  const bool shifts = plan.margin.grasp + plan.margin.tilt > 0.0;
+  if (shifts && !stays_on_object(model, plan, &why)) return why;
   if (!replay.reaches_goal) return "the object does not end at the goal";
   if (!replay.costs_right) return "the costs are not those of the pushes";
   return {};
@@ -153,9 +163,11 @@ Replay replay(const Model& model, const Plan& plan, const ReplayOptions& options
       same_grasp(plan.start, start, options) && same_grasp(first, start, options);
   result.connected = poses_connect(plan, options);
   result.end = start;
+  double travelled = 0.0;
   for (const PlannedPush& planned : plan.pushes) {
-    result.pushes.push_back(
-        replay_push(model, plan.margin, result.end, planned, options));
+    result.pushes.push_back(replay_push(model, carried(plan.margin, travelled),
+                                        result.end, planned, options));
+    travelled += travel_in_pad_plane(planned.push);
     const ReplayedPush& replayed = result.pushes.back();
     result.instants += replayed.transition.instants;
     if (!replayed.transition.completed()) break;
@@ -165,7 +177,7 @@ Replay replay(const Model& model, const Plan& plan, const ReplayOptions& options
     result.reaches_goal = reaches(*model.scene.goal, result.end);
     result.costs_right = costs_are_right(model, plan);
   }
-  result.why = first_disagreement(plan, result);
+  result.why = first_disagreement(model, plan, result);
   result.agrees = result.why.empty();
   return result;
 }

@@ -1,4 +1,5 @@
-/// Replays a plan with the exact mechanics, knowing nothing of the search that made it.
+/// Replays a plan with the exact mechanics, in space where a push needs that, knowing
+/// nothing of the search that made it.
 #pragma once
 
 #include <string>

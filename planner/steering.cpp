@@ -68,9 +68,10 @@ StickTest pad_test(const SearchModel& search, const Move& move, double place,
   const PushContact& contact =
       search.model->contacts[search.contacts[move.contact].contact];
   const Motion motion(move.from, move.to);
-  return exact_stick_test(
-      *search.model, contact, place, pose_along(move.from, move.to, share),
-      motion.direction(contact.n), motion.travel(), motion.omega, margin);
+  return exact_stick_test(*search.model, contact, place,
+                          pose_along(move.from, move.to, share),
+                          motion.direction(contact.n), motion.travel(), motion.omega,
+                          margin, share * motion.travel());
 }
 
 double place_of(const SearchModel& search, const Move& move) {
@@ -89,7 +90,7 @@ bool passes_closed_form(const SearchModel& search, int index, const FlatState& f
   const SearchContact& contact = search.contacts[index];
   const Motion motion(from, to);
   const double slack = robust_slack(contact.stick, from.p_OF, motion.velocity,
-                                    motion.omega, search.margin);
+                                    motion.omega, search.margin_from(from.p_OF));
   if (!(slack >= -kStickTolerance)) return false;  // NaN: goes nowhere
   const PushContact& pushed = search.model->contacts[contact.contact];
   return held(search, pushed, from.p_OF) && held(search, pushed, to.p_OF);
@@ -120,13 +121,23 @@ bool passes_pad_check(const SearchModel& search, int contact, const FlatState& f
   const Move move{contact, from, to};
   const double place = place_of(search, move);
   const int points = check_points(from, to);
+  const Margin margin = search.margin_from(from.p_OF);
   for (int i = 0; i < points; ++i) {
     ++work.stick_tests;
     const double share = static_cast<double>(i) / (points - 1);
-    const StickTest test = pad_test(search, move, place, share, search.margin);
+    const StickTest test = pad_test(search, move, place, share, margin);
     if (!(test.slack >= -kStickTolerance)) return false;
   }
   return true;
+}
+
+/// A move that begins anywhere but at the start begins at a place of the planner's
+/// choice; whether it ends at a goal is not known here and left to the exact check of the
+/// plan.
+bool stays_on_object(const SearchModel& search, const FlatState& from,
+                     const FlatState& to) {
+  return path_on_object(*search.model, {from.p_OF, from.p_OF == search.p_OF_start},
+                        {to.p_OF, true}, search.margin_from(from.p_OF));
 }
 
 }  // namespace
@@ -135,6 +146,7 @@ SearchModel prepare_search(const Model& model, const Margin& margin) {
   SearchModel search;
   search.model = &model;
   search.margin = margin;
+  search.p_OF_start = finger_in_object(model.scene.start.X_HO);
   search.exact_everywhere =
       model.region.is_isotropic() && model.region.is_fixed_in_hand();
   if (!(model.F > 0.0 && model.c > 0.0)) return search;
@@ -174,8 +186,17 @@ LinearPush push_of(const SearchModel& search, const Move& move) noexcept {
 bool move_sticks(const SearchModel& search, int contact, const FlatState& from,
                  const FlatState& to, Work& work) noexcept {
   return passes_closed_form(search, contact, from, to, work) &&
-         segment_inside(search.model->pad_face, from.p_OF, to.p_OF) &&
+         stays_on_object(search, from, to) &&
          passes_pad_check(search, contact, from, to, work);
+}
+
+Obstacle obstacle_of(const SearchContact& contact, const Vec2& from,
+                     const Vec2& to) noexcept {
+  const Vec2 e = from - to;  // of the object in the hand
+  const double e_n = e.dot(contact.stick.n);
+  if (e_n < 0.0) return Obstacle::kBackwards;
+  const bool flat = std::abs(e.dot(contact.stick.t)) > contact.stick.mu * e_n;
+  return flat ? Obstacle::kFrictionCone : Obstacle::kFaceEnds;
 }
 
 std::optional<Move> direct_move(const SearchModel& search, const FlatState& from,
@@ -186,7 +207,7 @@ std::optional<Move> direct_move(const SearchModel& search, const FlatState& from
     const int contact = i < 0 ? preferred : i;
     if (contact < 0 || (i >= 0 && contact == preferred)) continue;
     if (!passes_closed_form(search, contact, from, to, work)) continue;
-    on_object = on_object || segment_inside(search.model->pad_face, from.p_OF, to.p_OF);
+    on_object = on_object || stays_on_object(search, from, to);
     if (!on_object) return std::nullopt;
     if (passes_pad_check(search, contact, from, to, work)) return Move{contact, from, to};
   }
@@ -196,13 +217,27 @@ std::optional<Move> direct_move(const SearchModel& search, const FlatState& from
 double move_slack(const SearchModel& search, const Move& move, int points,
                   Work& work) noexcept {
   const double place = place_of(search, move);
+  const Margin margin = search.margin_from(move.from.p_OF);
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < points; ++i) {
     ++work.stick_tests;
     const double share = static_cast<double>(i) / (points - 1);
-    least = std::min(least, pad_test(search, move, place, share, search.margin).slack);
+    least = std::min(least, pad_test(search, move, place, share, margin).slack);
   }
   return least;
+}
+
+bool path_on_object(const Model& model, const PathEnd& from, const PathEnd& to,
+                    const Margin& margin) noexcept {
+  if (!segment_inside(model.pad_face, from.p_OF, to.p_OF)) return false;
+  double room = carried(margin, (to.p_OF - from.p_OF).norm()).grasp;
+  if (room == 0.0) return true;
+  for (const PathEnd& end : {from, to}) {
+    if (!end.given) continue;
+    room = std::min(room, distance_to_border(model.pad_face, end.p_OF, end.p_OF));
+  }
+  constexpr double kRounding = 1e-9;  // [m]
+  return distance_to_border(model.pad_face, from.p_OF, to.p_OF) >= room - kRounding;
 }
 
 bool segment_on_object(const Model& model, const Vec2& from_p_OF,

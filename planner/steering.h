@@ -6,11 +6,13 @@
 /// checked with the real pad at points along it, and dropped if it fails there.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "planner/plan.h"
+#include "planner/progress.h"
 
 namespace prehensile {
 
@@ -22,12 +24,16 @@ struct FlatState {
   double theta = 0.0;
 };
 
-/// Counts stick tests against the budget; the only thing that ends a search besides a
-/// stop.
+/// Counts stick tests against the budget, the only thing that ends a search besides a
+/// stop, and what went wrong on the way.
 struct Work {
   std::int64_t stick_tests = 0;
   std::int64_t propagations = 0;
   std::int64_t budget = 0;
+  Obstacles obstacles;             ///< what stopped the pushes tried
+  ProgressMeter* meter = nullptr;  ///< told how far the search is, if there is one
+  const std::atomic<bool>* stop = nullptr;  ///< as in PlanOptions
+  bool interrupted() const { return stop && stop->load(std::memory_order_relaxed); }
   bool spent() const { return stick_tests + propagations >= budget; }
 };
 
@@ -47,6 +53,15 @@ struct SearchModel {
   Margin margin;
   std::vector<SearchContact> contacts;
   bool exact_everywhere = false;  ///< isotropic pad: no move needs the pad check
+  Vec2 p_OF_start = Vec2::Zero();
+
+  /// The margin of a push that begins here: tilted pushes have carried the finger axis
+  /// off its place by a share of its way, of which the straight one is the least. The
+  /// exact check of a plan counts the whole way.
+  Margin margin_from(const Vec2& p_OF) const {
+    if (margin.tilt == 0.0) return margin;
+    return carried(margin, (p_OF - p_OF_start).norm());
+  }
 };
 
 /// Compiles the contacts: a line pusher that covers its face stands at the face's centre,
@@ -74,6 +89,11 @@ LinearPush push_of(const SearchModel& search, const Move& move) noexcept;
 bool move_sticks(const SearchModel& search, int contact, const FlatState& from,
                  const FlatState& to, Work& work) noexcept;
 
+/// What keeps a contact from a straight move that sticks for no rotation, by the nominal
+/// direction alone. No heap.
+Obstacle obstacle_of(const SearchContact& contact, const Vec2& from,
+                     const Vec2& to) noexcept;
+
 /// The contact that does the move (preferring `preferred`, else the first), if any. No
 /// heap.
 std::optional<Move> direct_move(const SearchModel& search, const FlatState& from,
@@ -84,6 +104,18 @@ std::optional<Move> direct_move(const SearchModel& search, const FlatState& from
 /// it, its ends included. No heap.
 double move_slack(const SearchModel& search, const Move& move, int points,
                   Work& work) noexcept;
+
+/// Whether an end of a path is the planner's choice.
+struct PathEnd {
+  Vec2 p_OF = Vec2::Zero();
+  bool given = false;  ///< start or goal
+};
+
+/// The finger axis stays on the object along a straight path even where it is off its
+/// place by what the margin says; but no farther from the border than it is at an end
+/// that is given. `margin` is that of where the path begins. No heap.
+bool path_on_object(const Model& model, const PathEnd& from, const PathEnd& to,
+                    const Margin& margin) noexcept;
 
 /// The finger axis stays on the object along the straight segment (in O), border
 /// included. Exact for any simple outline, up to rounding. No heap.

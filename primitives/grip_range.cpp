@@ -24,7 +24,10 @@ Model gripped(const Model& model, double force) {
   Model other = model;
   const std::array<double, 2>& mu = model.scene.gripper.friction;
   other.scene.gripper.grip_force = force;
-  other.F = (mu[0] + mu[1]) * force;
+  const double w = model.mass * model.scene.g_Wz;
+  other.jaw_force = jaw_forces(other.scene.gripper, w);
+  other.F = w == 0.0 ? (mu[0] + mu[1]) * force
+                     : mu[0] * other.jaw_force[0] + mu[1] * other.jaw_force[1];
   if (other.cross_section) other.cross_section->grip_force = force;
   return other;
 }

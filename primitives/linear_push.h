@@ -14,6 +14,10 @@ struct Guard {
   double distance = std::numeric_limits<double>::infinity();  ///< [m] of F in O
 };
 
+/// Whether the instants of this push are spatial.
+bool is_in_space(const Model& model, const LinearPush& push,
+                 const TransitionOptions& options) noexcept;
+
 /// The push must be one that `apply` does not refuse; see there.
 Transition follow(const Model& model, const Grasp& start, const LinearPush& push,
                   const Guard& guard, const TransitionOptions& options,

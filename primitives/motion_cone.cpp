@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 
 namespace prehensile {
@@ -32,32 +31,6 @@ KappaSet sticking_rates(const ConeMember& member, double direction) {
     set.intervals[i].hi /= member.contact.c;
   }
   return set;
-}
-
-/// All directions of the whole turn for which `holds`, edges by bisection.
-std::vector<DirectionRange> ranges_where(const std::function<bool(double)>& holds) {
-  constexpr double kPi = std::numbers::pi;
-  const auto edge = [&](double inside, double outside) {
-    while (std::abs(outside - inside) > 1e-10) {
-      const double middle = 0.5 * (inside + outside);
-      (holds(middle) ? inside : outside) = middle;
-    }
-    return inside;
-  };
-  std::vector<DirectionRange> ranges;
-  double last = -kPi;
-  bool was_inside = holds(last);
-  if (was_inside) ranges.push_back({last, last});
-  for (int k = 1; k <= kScan; ++k) {
-    const double at = -kPi + 2.0 * kPi * k / kScan;
-    const bool inside = holds(at);
-    if (inside && !was_inside) ranges.push_back({edge(at, last), at});
-    if (!inside && was_inside) ranges.back().hi = edge(last, at);
-    if (inside) ranges.back().hi = at;
-    was_inside = inside;
-    last = at;
-  }
-  return ranges;
 }
 
 }  // namespace
@@ -123,6 +96,31 @@ MotionCone motion_cone(const ConeMember& nominal, const std::vector<ConeMember>&
     cone.slices.push_back(slice);
   }
   return cone;
+}
+
+std::vector<DirectionRange> ranges_where(const std::function<bool(double)>& holds) {
+  constexpr double kPi = std::numbers::pi;
+  const auto edge = [&](double inside, double outside) {
+    while (std::abs(outside - inside) > 1e-10) {
+      const double middle = 0.5 * (inside + outside);
+      (holds(middle) ? inside : outside) = middle;
+    }
+    return inside;
+  };
+  std::vector<DirectionRange> ranges;
+  double last = -kPi;
+  bool was_inside = holds(last);
+  if (was_inside) ranges.push_back({last, last});
+  for (int k = 1; k <= kScan; ++k) {
+    const double at = -kPi + 2.0 * kPi * k / kScan;
+    const bool inside = holds(at);
+    if (inside && !was_inside) ranges.push_back({edge(at, last), at});
+    if (!inside && was_inside) ranges.back().hi = edge(last, at);
+    if (inside) ranges.back().hi = at;
+    was_inside = inside;
+    last = at;
+  }
+  return ranges;
 }
 
 KappaSet intersection(const KappaSet& a, const KappaSet& b) {

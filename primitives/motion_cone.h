@@ -11,6 +11,7 @@
 /// Source: motion cones of Chavan-Dafle, Holladay and Rodriguez (RSS 2018).
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "mechanics/sticking.h"
@@ -73,6 +74,10 @@ struct MotionCone {
 /// than half a degree may be missed.
 MotionCone motion_cone(const ConeMember& nominal, const std::vector<ConeMember>& members,
                        int slices = 181);
+
+/// All directions of the whole turn for which `holds`, looked at every half degree, edges
+/// by bisection.
+std::vector<DirectionRange> ranges_where(const std::function<bool(double)>& holds);
 
 /// Both sets have this kappa.
 KappaSet intersection(const KappaSet& a, const KappaSet& b);

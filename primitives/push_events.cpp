@@ -4,11 +4,12 @@
 
 #include "primitives/push_run.h"
 #include "primitives/root.h"
+#include "primitives/spatial_push_instant.h"
 
 namespace prehensile {
 namespace {
 
-using enum PushInstant::Search;
+using enum Search;
 
 /// Length below which a limit does not count as crossed [m].
 constexpr double kRoundOff = 1e-12;
@@ -30,7 +31,8 @@ constexpr double kContinuationError = 1e3;
 
 }  // namespace
 
-Crossing PushRun::first_crossing() {
+template <class Instant>
+Crossing PushRun<Instant>::first_crossing() {
   Crossing first;
   const PathLimits::Values at_start = limits(s_, q_);
   const PathLimits::Values at_end = limits(s_ + step_.h, step_.y_end);
@@ -91,7 +93,8 @@ Crossing PushRun::first_crossing() {
 /// Whether the state inside the step is as good as steps have to be. What the polynomial
 /// lacks is a constant times the square of its distance from the nodes, x (x - 1/2)
 /// (x - 1); the constant is read off the rate where the slope of that is greatest.
-bool PushRun::is_close(double at) {
+template <class Instant>
+bool PushRun<Instant>::is_close(double at) {
   const double x = at < 0.5 ? kSteepest : 1.0 - kSteepest;
   const auto node = [](double z) { return z * (z - 0.5) * (z - 1.0); };
   const double slope =
@@ -108,14 +111,16 @@ bool PushRun::is_close(double at) {
 }
 
 /// There is no motion at `at`: steps close in on it.
-void PushRun::block(double at) {
+template <class Instant>
+void PushRun<Instant>::block(double at) {
   if (control_.is_at_block(s_, at)) stop_at_block(s_ + control_.location());
 }
 
 /// After a step towards a place without motion: is that place still there, now that it is
 /// nearer? If the step is good enough to be continued up to it, the end of the motion is
 /// located on its continuation.
-void PushRun::look_at_block() {
+template <class Instant>
+void PushRun<Instant>::look_at_block() {
   const double x = (control_.blocked() - step_.s) / step_.h;
   if (x > kContinued) return;
   double high = x;
@@ -155,7 +160,8 @@ void PushRun::look_at_block() {
 }
 
 /// Ends the push where its motion ends; `beyond` is past that, and has the reason.
-void PushRun::stop_at_block(double beyond) {
+template <class Instant>
+void PushRun<Instant>::stop_at_block(double beyond) {
   error_ += (beyond - s_) * instant_.speed();
   if (traced_ && !instant_.solve(seat_, s_, q_)) record_.add(instant_.sample(s_, psi_));
   if (obstacle_.status == TransitionStatus::kFalls) return record_.stop(obstacle_, s_);
@@ -163,5 +169,8 @@ void PushRun::stop_at_block(double beyond) {
   const Obstacle met = instant_.solve(seat_, beyond, q, kAllMotions);
   record_.stop(instant_.explained(met ? met : obstacle_), s_);
 }
+
+template class PushRun<PushInstant>;
+template class PushRun<SpatialPushInstant>;
 
 }  // namespace prehensile

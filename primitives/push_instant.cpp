@@ -13,38 +13,6 @@ constexpr double kHeld = 1e-9;
 
 constexpr double kLooseTolerance = 1e-7;
 
-/// Only where the pusher advances at all its points is the motion of a held grasp known
-/// to be unique; a receding point may drag the object along or leave it.
-bool recedes_somewhere(const PlanarDrive& drive) {
-  for (int k = 0; k < drive.count; ++k) {
-    if (point_velocity(drive.V_HP, drive.p_HC[k]).dot(drive.n_H) < 0.0) return true;
-  }
-  return false;
-}
-
-Obstacle obstacle_of(InstantStatus status) {
-  using enum TransitionStatus;
-  switch (status) {
-    case InstantStatus::kMoves:
-    case InstantStatus::kHolds:
-    case InstantStatus::kNonuniqueForces:
-      return {};
-    case InstantStatus::kSeparated:
-      return {kPusherLost, EventKind::kContactLost, "the pusher leaves the object"};
-    case InstantStatus::kDynamic:
-      return {kFalls, EventKind::kGravityLost, "nothing balances gravity"};
-    case InstantStatus::kAmbiguous:
-      return {kAmbiguous, {}, "two motions are possible"};
-    case InstantStatus::kJammed:
-      return {kJammed, {}, "no motion is possible"};
-    case InstantStatus::kNotRun:
-    case InstantStatus::kOutOfIterations:
-    case InstantStatus::kBadInput:
-      break;
-  }
-  return {kIterationLimit, {}, "an instant was not solved"};
-}
-
 }  // namespace
 
 PushInstant::PushInstant(const Model& model, const LinearPush& push, const Grasp& start,
@@ -55,9 +23,8 @@ PushInstant::PushInstant(const Model& model, const LinearPush& push, const Grasp
       X_HO_start_(start.X_HO),
       geometry_(model, *contact_, push.place),
       friction_(options.friction_model),
-      speed_(push.travel + std::abs(push.turn) * 0.5 * model.L),
-      force_(model.F + model.mass * contact_->g_O.norm()) {
-  options_.tolerance = std::clamp(1e-3 * options.tolerance / speed_, 1e-12, 1e-9);
+      scales_(scales_of(model, push)) {
+  options_.tolerance = std::clamp(1e-3 * options.tolerance / scales_.speed, 1e-12, 1e-9);
 }
 
 PlanarPose PushInstant::pose(const Seat& seat, double s, const Vec2& q) const {
@@ -114,10 +81,10 @@ Obstacle PushInstant::solve(const Seat& seat, double s, const Vec2& q,
   }
   now.solved = true;
   now.V_HO = now.instant.V_HO;
-  now.tangential_force = 0.0;
+  now.contact.tangential_force = 0.0;
   for (int k = 0; k < now.drive.count; ++k) {
-    now.load[k] = now.instant.pusher[k].normal_force;
-    now.tangential_force += now.instant.pusher[k].tangential_force;
+    now.contact.load[k] = now.instant.pusher[k].normal_force;
+    now.contact.tangential_force += now.instant.pusher[k].tangential_force;
   }
   read(seat, now);
   return {};
@@ -152,8 +119,8 @@ PushInstant::InMode PushInstant::take_mode(const Seat& seat, Regime regime) noex
   now.solved = false;
   now.pivot = motion.pivot;
   now.V_HO = motion.V_HO;
-  now.load = motion.normal_force;
-  now.tangential_force = motion.tangential_force[0] + motion.tangential_force[1];
+  now.contact.load = motion.normal_force;
+  now.contact.tangential_force = motion.tangential_force[0] + motion.tangential_force[1];
   if (warm_.valid) warm_.last.V_HO = now.V_HO;
   read(seat, now);
   return InMode::kMoves;
@@ -165,9 +132,9 @@ double PushInstant::ride_lasts(double most) const noexcept {
   // are linear in the share, so both ends tell.
   if (push_.bend == 0.0 && (is_ellipsoid() || push_.turn == 0.0)) return most;
   if (is_ellipsoid()) return 0.0;
-  const double cone = contact_->mu * now.normal_force - std::abs(now.tangential_force);
+  const double cone = contact_->mu * now.contact.normal_force - now.contact.friction;
   return sure_to_last(now.grasp, now.drive, push_.turn, push_.travel * push_.bend,
-                      {now.load, cone}, most);
+                      {now.contact.load, cone}, most);
 }
 
 bool PushInstant::recedes() const { return recedes_somewhere(answer().drive); }
@@ -194,59 +161,17 @@ Obstacle PushInstant::explained(const Obstacle& obstacle) const noexcept {
 void PushInstant::read(const Seat& seat, Answer& answer) const noexcept {
   const PlanarDrive& drive = answer.drive;
   const PlanarTwist V_PO = answer.V_HO - drive.V_HP;
-  answer.normal_force = 0.0;
-  answer.slip = 0.0;
+  ContactReading& contact = answer.contact;
+  contact.normal_force = 0.0;
+  contact.slip = 0.0;
   for (int k = 0; k < drive.count; ++k) {
     const Vec2 c = point_velocity(V_PO, drive.p_HC[k]);
-    answer.lift[k] = c.dot(drive.n_H);
-    answer.slip += c.dot(drive.t_H()) / drive.count;
-    answer.normal_force += answer.load[k];
+    contact.lift[k] = c.dot(drive.n_H);
+    contact.slip += c.dot(drive.t_H()) / drive.count;
+    contact.normal_force += contact.load[k];
   }
-  answer.tilt_rate = seat.kind == SeatKind::kFlush ? 0.0 : V_PO[2];
-}
-
-double PushInstant::friction_left(const Answer& answer) const {
-  return (contact_->mu * answer.normal_force - std::abs(answer.tangential_force)) /
-         force_;
-}
-
-ModeMargin PushInstant::margin(const Seat& seat, Regime regime) const {
-  const Answer& now = answer();
-  ModeMargin margin;
-  margin.pressed.fill(std::numeric_limits<double>::infinity());
-  if (seat.kind == SeatKind::kFlush) {
-    for (int k = 0; k < 2; ++k) {
-      margin.pressed[k] = now.load[k] / force_ - now.lift[k] / speed_;
-    }
-  }
-  const double slip = now.slip / speed_;
-  switch (regime) {
-    case Regime::kStick:
-      margin.regime = friction_left(now) - std::abs(slip);
-      break;
-    case Regime::kSlipPlus:
-      margin.regime = slip - friction_left(now);
-      break;
-    case Regime::kSlipMinus:
-      margin.regime = -slip - friction_left(now);
-      break;
-  }
-  return margin;
-}
-
-Regime PushInstant::regime() const {
-  const double slip = std::abs(answer().slip) / speed_;
-  return friction_left(answer()) >= slip ? Regime::kStick : slip_side();
-}
-
-/// Friction on the object opposes its slip; at the onset only the friction can tell, and
-/// without friction only the slip.
-Regime PushInstant::slip_side() const {
-  const double slip = answer().slip;
-  const double friction = answer().tangential_force;
-  const bool slips = std::abs(slip) / speed_ > std::abs(friction) / force_;
-  const double sign = slips ? slip : -friction;
-  return sign > 0.0 ? Regime::kSlipPlus : Regime::kSlipMinus;
+  contact.friction = std::abs(contact.tangential_force);
+  contact.tilt_rate = seat.kind == SeatKind::kFlush ? 0.0 : V_PO[2];
 }
 
 Sample PushInstant::sample(double s, double psi) const {
@@ -255,9 +180,9 @@ Sample PushInstant::sample(double s, double psi) const {
   sample.s = s;
   sample.grasp = {now.X_HO, psi};
   sample.push_force = now.instant.push_force;
-  sample.normal_force = now.normal_force;
-  sample.tangential_force = now.tangential_force;
-  sample.slip_rate = now.slip;
+  sample.normal_force = now.contact.normal_force;
+  sample.tangential_force = now.contact.tangential_force;
+  sample.slip_rate = now.contact.slip;
   sample.status = now.instant.status;
   sample.certificate = is_ellipsoid()
                            ? limit_surface_residual(model_->surface(), now.grasp.w_g,

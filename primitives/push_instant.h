@@ -3,42 +3,28 @@
 /// the next change of contact mode, reasons to stop.
 #pragma once
 
-#include <algorithm>
-#include <limits>
-
 #include "mechanics/contact_mode.h"
-#include "primitives/push_record.h"
-#include "primitives/seat.h"
+#include "primitives/contact_reading.h"
 
 namespace prehensile {
-
-/// What the contact does along the pusher.
-enum class Regime { kStick, kSlipPlus, kSlipMinus };
-
-/// How firmly each part of the present contact mode holds, dimensionless: positive while
-/// it holds, through zero where it changes.
-struct ModeMargin {
-  std::array<double, 2> pressed;  ///< load against lift of each end of a flush line
-  double regime = 0.0;            ///< friction left against slip, or the reverse
-
-  double least() const { return std::min({pressed[0], pressed[1], regime}); }
-};
 
 class PushInstant {
  public:
   PushInstant(const Model& model, const LinearPush& push, const Grasp& start,
               const TransitionOptions& options);
 
+  using Search = prehensile::Search;
+  using InMode = prehensile::InMode;
+
+  /// Rates are those of the contact mode also beyond its end.
+  static constexpr bool kSmoothBeyondMode = true;
+
   /// Solves the instant at the share s of the push with the object at q in the seat.
-  /// `kAllMotions` tries every contact mode where the answer need not be unique.
-  enum class Search { kOneMotion, kAllMotions };
   Obstacle solve(const Seat& seat, double s, const Vec2& q,
                  Search search = Search::kOneMotion) noexcept;
 
   /// The instant in a prescribed contact mode, lawful or not: smooth beyond the end of
-  /// the mode. `kUnknown` where the mode has no motion or the pusher does not advance;
-  /// `kUnheld` where the pads alone do not hold gravity, so that no push goes on there.
-  enum class InMode { kMoves, kUnknown, kUnheld };
+  /// the mode.
   InMode solve_in_mode(const Seat& seat, double s, const Vec2& q, Regime regime) noexcept;
 
   /// The same for a ride, where nothing needs to be solved: not counted as an instant.
@@ -69,18 +55,23 @@ class PushInstant {
   int pivot() const { return answer().pivot; }
 
   /// Of the last answer.
-  Vec2 rate() const { return {answer().slip, answer().tilt_rate}; }
-  ModeMargin margin(const Seat& seat, Regime regime) const;
-  Regime slip_side() const;
-  Regime regime() const;
+  Vec2 rate() const { return {answer().contact.slip, answer().contact.tilt_rate}; }
+  ModeMargin margin(const Seat& seat, Regime regime) const {
+    return margin_of(answer().contact, scales_, seat, regime);
+  }
+  Regime slip_side() const { return slip_side_of(answer().contact, scales_); }
+  Regime regime() const { return regime_of(answer().contact, scales_); }
   Sample sample(double s, double psi) const;
 
   const SeatGeometry& geometry() const { return geometry_; }
   PlanarPose pose(const Seat& seat, double s, const Vec2& q) const;
-  double speed() const { return speed_; }
+  double speed() const { return scales_.speed; }
 
   /// Margins and rates over `speed` below this are noise of the solver.
   double noise() const { return 100.0 * options_.tolerance; }
+
+  /// Relative error of a rate: the modes are solved to rounding.
+  static constexpr double rounding() { return 1e-14; }
 
   int count() const { return count_; }
   int checks() const { return checks_; }
@@ -95,15 +86,9 @@ class PushInstant {
     bool solved = false;
     int pivot = -1;
     PlanarTwist V_HO = PlanarTwist::Zero();
-    std::array<double, 2> load{0.0, 0.0};  ///< [N] normal, of each end
-    double slip = 0.0;       ///< [m] per unit of s, of the object along the pusher
-    double tilt_rate = 0.0;  ///< [rad] per unit of s
-    std::array<double, 2> lift{0.0, 0.0};  ///< [m] per unit of s
-    double normal_force = 0.0;             ///< [N]
-    double tangential_force = 0.0;         ///< [N]
+    ContactReading contact;
   };
   const Answer& answer() const { return answers_[now_]; }
-  double friction_left(const Answer& answer) const;
   void pose_question(const Seat& seat, double s, const Vec2& q) noexcept;
   InMode take_mode(const Seat& seat, Regime regime) noexcept;
   void read(const Seat& seat, Answer& answer) const noexcept;
@@ -116,8 +101,7 @@ class PushInstant {
   SeatGeometry geometry_;
   PlanarSolveOptions options_;
   FrictionModel friction_;
-  double speed_;  ///< [m] per unit of s: unit of rates
-  double force_;  ///< [N] unit of forces
+  ContactScales scales_;
 
   std::array<Answer, 2> answers_;
   PlanarWarmStart warm_;

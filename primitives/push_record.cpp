@@ -13,6 +13,11 @@ void PushRecord::add(const Sample& sample) {
   transition_.min_push_force = std::fmin(transition_.min_push_force, sample.push_force);
   transition_.worst_certificate =
       std::fmax(transition_.worst_certificate, sample.certificate);
+  transition_.least_jaw_force = std::fmin(
+      transition_.least_jaw_force, std::fmin(sample.jaw_force[0], sample.jaw_force[1]));
+  transition_.least_pressed = std::fmin(transition_.least_pressed, sample.pressed);
+  transition_.most_out_of_plane =
+      std::fmax(transition_.most_out_of_plane, sample.out_of_plane);
   if (trace_) trace_->push_back(sample);
   if (!(sample.certificate <= certificate_tolerance_)) {
     stop({TransitionStatus::kUncertified, {}, "an instant failed its certificate"},
@@ -26,6 +31,11 @@ void PushRecord::add(EventKind kind, double s) {
                 s);
   }
   transition_.events[transition_.event_count++] = {kind, s};
+}
+
+void PushRecord::add_passing(EventKind kind, double s) {
+  // One place is kept for the event that ends the push.
+  if (transition_.event_count < Transition::kMaxEvents - 1) add(kind, s);
 }
 
 void PushRecord::stop(const Obstacle& obstacle, double s) {

@@ -3,10 +3,12 @@
 #include <cmath>
 #include <utility>
 
+#include "primitives/spatial_push_instant.h"
+
 namespace prehensile {
 namespace {
 
-using enum PushInstant::Search;
+using enum Search;
 
 /// Shortest step of a ride over that spacing, where nothing is sure.
 constexpr double kLeastRide = 0.5;
@@ -14,12 +16,10 @@ constexpr double kLeastRide = 0.5;
 /// Spacing over that spacing of the search for other motions where the pusher recedes.
 constexpr double kProbeSpacing = 4.0;
 
-/// Share of its length by which a step that is to end at an event goes beyond it.
-constexpr double kBeyond = 0.02;
-
 }  // namespace
 
-void PushRun::begin() {
+template <class Instant>
+void PushRun<Instant>::begin() {
   seat_ = instant_.geometry().first();
   whole_ = model_.region.is_whole(instant_.pose(seat_, s_, q_));
   if (!solve_here()) return;
@@ -36,7 +36,8 @@ void PushRun::begin() {
 }
 
 /// One attempt at a step: it is refused, taken up to an event, or taken.
-void PushRun::advance() {
+template <class Instant>
+void PushRun<Instant>::advance() {
   if (++attempts_ > options_.max_steps) {
     return record_.stop(
         {TransitionStatus::kIterationLimit, {}, "the step limit was reached"}, s_);
@@ -71,7 +72,8 @@ void PushRun::advance() {
 
 /// The object moves with the pusher: the step is known, and only the pusher's forces at
 /// its end are looked at; at the end of the push the instant is solved.
-bool PushRun::ride() {
+template <class Instant>
+bool PushRun<Instant>::ride() {
   step_.h = control_.next(s_, ride_length());
   step_.y_end = q_;
   step_.rate_end = step_.rate = Vec2::Zero();
@@ -97,7 +99,8 @@ bool PushRun::ride() {
 
 /// As long as nothing can happen: bounds on the pusher's forces, and on how far the
 /// finger axis comes.
-double PushRun::ride_length() const {
+template <class Instant>
+double PushRun<Instant>::ride_length() const {
   double length = 1.0 - s_;
   if (traced_) length = std::min(length, options_.max_step);
   if (instant_.recedes()) length = std::min(length, kProbeSpacing * options_.max_step);
@@ -110,11 +113,12 @@ double PushRun::ride_length() const {
 }
 
 /// Takes the step up to this share.
-void PushRun::accept(double share) {
+template <class Instant>
+void PushRun<Instant>::accept(double share) {
   const bool whole = share == 1.0;
   const Vec2 q = whole ? step_.y_end : step_.at(share);
   if (!rides()) {
-    const double noise = kRounding * instant_.speed() * step_.h;
+    const double noise = instant_.rounding() * instant_.speed() * step_.h;
     error_ = error_ * growth(share) + noise +
              (whole ? step_error_ : step_error_ * share + inside_error_);
     record_.add_slip(std::abs(q[0] - q_[0]));
@@ -132,7 +136,8 @@ void PushRun::accept(double share) {
 }
 
 /// Samples of a traced push between the ends of its steps.
-void PushRun::trace_inside(double share) {
+template <class Instant>
+void PushRun<Instant>::trace_inside(double share) {
   const int count = static_cast<int>(share * step_.h / options_.max_step);
   instant_.set_aside();
   for (int i = 1; i <= count && !record_.stopped(); ++i) {
@@ -144,11 +149,13 @@ void PushRun::trace_inside(double share) {
   instant_.bring_back();
 }
 
-PathLimits::Values PushRun::limits(double s, const Vec2& q) const {
+template <class Instant>
+PathLimits::Values PushRun<Instant>::limits(double s, const Vec2& q) const {
   return limits_.at(instant_.geometry(), seat_, q, instant_.pose(seat_, s, q), whole_);
 }
 
-void PushRun::pass(const Crossing& crossing) {
+template <class Instant>
+void PushRun<Instant>::pass(const Crossing& crossing) {
   // The last instant may be that at the end of a step that was not taken.
   if (!solve_here()) return;
   record_.add(instant_.sample(s_, psi_));
@@ -164,7 +171,8 @@ void PushRun::pass(const Crossing& crossing) {
 }
 
 /// Leaves the contact mode whose margin is used up.
-void PushRun::change_mode() {
+template <class Instant>
+void PushRun<Instant>::change_mode() {
   const ModeMargin margin = instant_.margin(seat_, regime_);
   for (const int lifted : {0, 1}) {
     if (margin.pressed[lifted] > margin.least()) continue;
@@ -178,7 +186,8 @@ void PushRun::change_mode() {
   take_regime(frictionless ? opposite : Regime::kStick);
 }
 
-void PushRun::take_regime(Regime regime) {
+template <class Instant>
+void PushRun<Instant>::take_regime(Regime regime) {
   // A mode that is left at once for the one before was never taken: where a stiff motion
   // settles, its slip is rounding of the state times a large rate.
   const bool returns =
@@ -201,7 +210,8 @@ void PushRun::take_regime(Regime regime) {
   record_.add(regime == Regime::kStick ? EventKind::kStick : EventKind::kSlip, s_);
 }
 
-void PushRun::take_seat(const Seat& seat, EventKind event) {
+template <class Instant>
+void PushRun<Instant>::take_seat(const Seat& seat, EventKind event) {
   seat_ = seat;
   q_ = Vec2::Zero();
   record_.add(event, s_);
@@ -211,10 +221,14 @@ void PushRun::take_seat(const Seat& seat, EventKind event) {
   margin_ = mode_margin();
 }
 
-void PushRun::stop(const Obstacle& obstacle) { record_.stop(obstacle, s_); }
+template <class Instant>
+void PushRun<Instant>::stop(const Obstacle& obstacle) {
+  record_.stop(obstacle, s_);
+}
 
 /// Solves the instant at the present state; stops the push if there is no motion.
-bool PushRun::solve_here() {
+template <class Instant>
+bool PushRun<Instant>::solve_here() {
   const Obstacle obstacle = instant_.solve(seat_, s_, q_, kAllMotions);
   if (obstacle) {
     record_.stop(instant_.explained(obstacle), s_);
@@ -223,5 +237,8 @@ bool PushRun::solve_here() {
   rate_ = instant_.rate();
   return true;
 }
+
+template class PushRun<PushInstant>;
+template class PushRun<SpatialPushInstant>;
 
 }  // namespace prehensile

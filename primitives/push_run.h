@@ -27,6 +27,9 @@ struct Crossing {
   std::optional<Limit> limit;
 };
 
+/// `Instant` is the source of the rates: `PushInstant` in the pad plane,
+/// `SpatialPushInstant` in space.
+template <class Instant>
 class PushRun {
  public:
   PushRun(const Model& model, const Grasp& start, const LinearPush& push,
@@ -53,8 +56,6 @@ class PushRun {
   }
 
  private:
-  using InMode = PushInstant::InMode;
-
   static constexpr double kNever = StepControl::kNever;
 
   /// Share of the tolerance that steps may spend: errors grow after they were made.
@@ -70,11 +71,11 @@ class PushRun {
     return std::min(1.0, (is_smooth ? 20.0 : 10.0) * options.max_step);
   }
 
+  /// Share of its length by which a step that is to end at an event goes beyond it.
+  static constexpr double kBeyond = 0.02;
+
   /// So often may a regime be left at once for the one before.
   static constexpr int kMostReturns = 32;
-
-  /// Relative error of a rate: the modes are solved to rounding.
-  static constexpr double kRounding = 1e-14;
 
   /// Weight of an angle for pads that cannot exert a torque, over the size of the object.
   static constexpr double kLeastReach = 0.01;
@@ -88,6 +89,7 @@ class PushRun {
   double ride_length() const;
   bool is_close(double at);
   bool integrate();
+  void land_at_kink();
   RateDerivatives derivatives(const BaseStep& base);
   bool rate_in_mode(double s, const Vec2& q, Vec2& out);
   bool rate_at_end(double s, const Vec2& q, Vec2& out);
@@ -125,7 +127,7 @@ class PushRun {
   const double psi_;
   const double reach_;  ///< [m] weight of an angle
 
-  PushInstant instant_;
+  Instant instant_;
   PathLimits limits_;
   PushRecord record_;
   StepControl control_;

@@ -1,14 +1,16 @@
 /// Steps of a push that is integrated.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "primitives/dormand_prince.h"
 #include "primitives/push_run.h"
+#include "primitives/spatial_push_instant.h"
 
 namespace prehensile {
 namespace {
 
-using enum PushInstant::Search;
+using enum Search;
 
 /// Powers of the step length with which the errors of the methods fall.
 constexpr int kOrder = 6;
@@ -55,13 +57,25 @@ constexpr double kContraction = 0.2;
 
 }  // namespace
 
+/// A step that was refused because rates have a kink at the end of the contact mode: the
+/// next one shall end there.
+template <class Instant>
+void PushRun<Instant>::land_at_kink() {
+  if (Instant::kSmoothBeyondMode || !(least_margin_ < -instant_.noise())) return;
+  if (!(margin_ > 0.0)) return;
+  const double share = margin_ / (margin_ - least_margin_);
+  control_.land((1.0 + kBeyond) * share * (least_at_ - s_));
+}
+
 /// Computes the step and its end; false if there is no motion or the error is too large.
-bool PushRun::integrate() {
+template <class Instant>
+bool PushRun<Instant>::integrate() {
   // The points of a pad that overhangs move over it, with a kink now and then.
   const bool is_smooth = whole_ || options_.friction_model == FrictionModel::kEllipsoid;
   step_.h = control_.next(s_, is_smooth ? kNever : kOverhangStep * options_.max_step);
   const double middle = s_ + 0.5 * step_.h;
-  int low_pivot = 99, high_pivot = -2;
+  int low_pivot = std::numeric_limits<int>::max();
+  int high_pivot = -2;
   least_margin_ = dip_at_ = kNever;
   const auto rate = [this, middle, &low_pivot, &high_pivot](double s, const Vec2& q,
                                                             Vec2& out) {
@@ -104,13 +118,17 @@ bool PushRun::integrate() {
   }
   if (step_.gave_up) {
     (void)control_.accepts(step_.h, length_of(step_.error) / kHopelessIsMore, kOrder);
+    land_at_kink();
     return false;
   }
   step_error_ = stiff_ ? kDoubtOfStiff * length_of(step_.error) : halved_error();
   const bool accepted =
       control_.accepts(step_.h, step_error_, stiff_ ? kStiffOrder : kOrder);
   watch_stiffness(accepted);
-  if (!accepted) return false;
+  if (!accepted) {
+    land_at_kink();
+    return false;
+  }
   if (stiff_) doubt_stiff_step(low_pivot != high_pivot);
   look_inside();
   return true;
@@ -118,8 +136,9 @@ bool PushRun::integrate() {
 
 /// The rates at the places that tell the error of a step taken in halves; a place without
 /// motion, or infinity.
+template <class Instant>
 template <class Rate>
-double PushRun::look_at_nodes(const Rate& rate) {
+double PushRun<Instant>::look_at_nodes(const Rate& rate) {
   instant_.set_aside();
   double failed_at = kNever;
   std::array<Vec2, 2> rates;
@@ -135,7 +154,8 @@ double PushRun::look_at_nodes(const Rate& rate) {
 
 /// What the error of a step taken in halves is counted as. A kink shows where state and
 /// rates inside disagree by as much as the embedded errors; then the error is random.
-double PushRun::halved_error() const {
+template <class Instant>
+double PushRun<Instant>::halved_error() const {
   const double defect = length_of(step_.defect);
   const bool kink = defect > kKink * length_of(step_.embedded);
   return (kink ? kDoubtOfKink : kDoubtOfHalves) *
@@ -145,7 +165,8 @@ double PushRun::halved_error() const {
 /// What a stiff step's error may be, with what its computation cannot see: a kink between
 /// the stages, which a place that no stage looked at may show, and the random size of the
 /// error where there is one.
-void PushRun::doubt_stiff_step(bool kink) {
+template <class Instant>
+void PushRun<Instant>::doubt_stiff_step(bool kink) {
   if (kink) step_error_ *= kDoubtOfStiffKink;
   instant_.set_aside();
   Vec2 rate;
@@ -158,7 +179,8 @@ void PushRun::doubt_stiff_step(bool kink) {
 
 /// At the end of a step the instant is asked whether its answer is that of the mode, and
 /// no other.
-bool PushRun::rate_at_end(double s, const Vec2& q, Vec2& out) {
+template <class Instant>
+bool PushRun<Instant>::rate_at_end(double s, const Vec2& q, Vec2& out) {
   obstacle_ = instant_.solve(seat_, s, q, kAllMotions);
   if (obstacle_ || mode_margin() < -instant_.noise()) {
     // Beyond the end of the mode, if the mode says so.
@@ -176,7 +198,8 @@ bool PushRun::rate_at_end(double s, const Vec2& q, Vec2& out) {
 
 /// Rate within the contact mode, also beyond its end; where the mode alone does not tell
 /// the motion, that of the instant.
-bool PushRun::rate_in_mode(double s, const Vec2& q, Vec2& out) {
+template <class Instant>
+bool PushRun<Instant>::rate_in_mode(double s, const Vec2& q, Vec2& out) {
   const InMode found = instant_.solve_in_mode(seat_, s, q, regime_);
   if (found != InMode::kMoves) {
     obstacle_ = found == InMode::kUnheld ? kUnheldPush : instant_.solve(seat_, s, q);
@@ -186,7 +209,8 @@ bool PushRun::rate_in_mode(double s, const Vec2& q, Vec2& out) {
   return true;
 }
 
-RateDerivatives PushRun::derivatives(const BaseStep& base) {
+template <class Instant>
+RateDerivatives PushRun<Instant>::derivatives(const BaseStep& base) {
   RateDerivatives found;
   const double nudge = std::min(kNudge, 0.5 * base.h);
   Vec2 rate;
@@ -209,7 +233,8 @@ RateDerivatives PushRun::derivatives(const BaseStep& base) {
 
 /// Where a stage seemed to leave a contact mode that holds in the middle and at the end
 /// of the step, the place itself is looked at.
-void PushRun::look_inside() {
+template <class Instant>
+void PushRun<Instant>::look_inside() {
   if (least_margin_ >= -instant_.noise() || middle_margin_ < -instant_.noise() ||
       mode_margin() < -instant_.noise()) {
     return;
@@ -226,7 +251,8 @@ void PushRun::look_inside() {
 }
 
 /// What an error of the coordinates at the end of the step makes of the pose [m].
-double PushRun::length_of(const Vec2& error) const {
+template <class Instant>
+double PushRun<Instant>::length_of(const Vec2& error) const {
   const PlanarPose one = instant_.geometry().object(seat_, step_.y_end);
   const PlanarPose other = instant_.geometry().object(seat_, step_.y_end - error);
   return Vec3(one.x - other.x, one.y - other.y, reach_ * error[1]).norm();
@@ -234,7 +260,8 @@ double PushRun::length_of(const Vec2& error) const {
 
 /// Explicit steps that are kept short by stability call for a stiff method, and its steps
 /// for an explicit one where that would do as well.
-void PushRun::watch_stiffness(bool accepted) {
+template <class Instant>
+void PushRun<Instant>::watch_stiffness(bool accepted) {
   if (stiff_) {
     stiffness_seen_ = accepted && stiffness_ < kNotStiff ? stiffness_seen_ - 1 : 2;
     stiff_ = stiffness_seen_ > 0;
@@ -243,20 +270,28 @@ void PushRun::watch_stiffness(bool accepted) {
   const Vec2 lengths(1.0, reach_);
   const double apart = step_.probe.cwiseProduct(lengths).norm();
   const double change = 0.5 * step_.h * step_.probe_rate.cwiseProduct(lengths).norm();
-  stiffness_seen_ = change > kStiff * apart ? stiffness_seen_ + 1 : 0;
+  const double noise = Instant::kSmoothBeyondMode
+                           ? 0.0
+                           : 1e3 * instant_.rounding() * instant_.speed() * step_.h;
+  stiffness_seen_ = change > kStiff * apart && apart >= noise ? stiffness_seen_ + 1 : 0;
   stiff_ = stiffness_seen_ >= 2;
 }
 
 /// How much of an error made before this step is there after it, by the change of rate
 /// between two states at its end. A pusher that trails the pads is unstable.
-double PushRun::growth(double share) const {
+template <class Instant>
+double PushRun<Instant>::growth(double share) const {
   const Vec2 lengths(1.0, reach_);
   const Vec2 apart = step_.probe.cwiseProduct(lengths);
   const Vec2 rate = step_.probe_rate.cwiseProduct(lengths);
-  if (!(apart.norm() > 1e3 * kRounding * instant_.speed() * step_.h)) return 1.0;
+  if (!(apart.norm() > 1e3 * instant_.rounding() * instant_.speed() * step_.h))
+    return 1.0;
   const double exponent = share * step_.h * apart.dot(rate) / apart.squaredNorm();
   const double trusted = exponent < 0.0 ? kContraction * exponent : exponent;
   return std::exp(std::clamp(trusted, -kMostGrowth, kMostGrowth));
 }
+
+template class PushRun<PushInstant>;
+template class PushRun<SpatialPushInstant>;
 
 }  // namespace prehensile

@@ -1,12 +1,13 @@
 /// The transition function: a push goes in, a new in-hand pose comes out, with the forces
 /// along the way, the events, an error estimate and the reason for stopping.
 ///
-/// Instants are solved by the exact planar mechanics (roll: the cross-section) or over
-/// the ellipsoid, and certified at the ends of steps and at events. While a line sticks,
-/// the object follows the pusher's exact rigid motion; otherwise the twist is integrated
-/// with adaptive steps, explicit (Dormand-Prince 5(4)) or stiff (RODAS), and the changes
-/// of contact mode are located. Where the pusher recedes somewhere, motions need not be
-/// unique: all contact modes are tried there. docs/primitives.md tells it at length.
+/// Instants are solved by the exact planar mechanics (roll: the cross-section), by the
+/// exact spatial one where the scene needs it, or over the ellipsoid, and certified at
+/// the ends of steps and at events. While a line sticks, the object follows the pusher's
+/// exact rigid motion; otherwise the twist is integrated with adaptive steps, explicit
+/// (Dormand-Prince 5(4)) or stiff (RODAS), and the changes of contact mode are located.
+/// Where the pusher recedes somewhere, motions need not be unique: all contact modes are
+/// tried there. docs/primitives.md tells it at length.
 #pragma once
 
 #include <array>
@@ -25,7 +26,8 @@ enum class TransitionStatus {
   kLeftGuard,       ///< valid motion, but no longer the named primitive; stopped there
   kPusherLost,      ///< the pusher left the face or the object left the pusher
   kPadLost,         ///< the centre of the pads left the face
-  kFalls,           ///< the grasp no longer holds gravity
+  kLeavesPlane,     ///< the object tilts or moves between the jaws, or these open
+  kFalls,           ///< the grasp no longer holds gravity, or the object tips by itself
   kJammed,          ///< no motion possible
   kAmbiguous,       ///< two motions possible; stopped rather than guess
   kUncertified,     ///< an instant failed its certificate
@@ -39,10 +41,13 @@ enum class EventKind {
   kSlip,           ///< the contact begins to slip
   kCorner,         ///< one end of a flush line lifts
   kFlush,          ///< a tipped line lies on the face again
+  kOverEdge,       ///< a prism rolled over an edge: its next side lies on the support
   kPusherOffFace,  ///< ends the push, like all that follow
   kPadOffFace,
   kContactLost,
   kGravityLost,
+  kOutOfPlane,
+  kTips,  ///< weight and grip tip a prism on, faster than the support moves
   kGuard,
 };
 std::string_view name(EventKind kind);
@@ -59,6 +64,15 @@ enum class FrictionModel {
               ///< exact only for grasps that have that surface
 };
 
+/// In how many dimensions the instants of a push are solved. The state of a finite push
+/// is (x, y, theta) in either case: the jaws keep the faces that they hold parallel to
+/// the pads, up to what the foundations of the pads yield (spatial_push_instant.h).
+enum class PushLevel {
+  kChoose,    ///< space where the scene needs it (Model::push_needs_space)
+  kPadPlane,  ///< the loads of the pads stay as they are at rest
+  kSpace      ///< the loads shift within and between the pads; not over the ellipsoid
+};
+
 struct TransitionOptions {
   double tolerance = 1e-6;  ///< [m] accepted error of the end pose (angles weigh c)
   double max_step = 0.05;   ///< share of the push between samples of a trace, and unit of
@@ -68,6 +82,7 @@ struct TransitionOptions {
   int max_steps = 2000;  ///< attempted steps; raise for stiff pushes at fine tolerance
   double certificate_tolerance = 1e-6;
   FrictionModel friction_model = FrictionModel::kPads;  ///< not for rolls
+  PushLevel level = PushLevel::kChoose;                 ///< not for rolls
 };
 
 /// Every option is in its range.
@@ -81,8 +96,18 @@ struct Sample {
   double normal_force = kNan;      ///< [N]
   double tangential_force = kNan;  ///< [N]
   double slip_rate = kNan;         ///< object relative to pusher, per unit of s [m]
+  double opening = kNan;           ///< [m] between the pads; rolls of a prism only
   InstantStatus status = InstantStatus::kNotRun;
   double certificate = kNan;  ///< worst entry
+
+  /// Of pushes that are followed in space, else NaN:
+  std::array<double, 2> jaw_force{kNan, kNan};  ///< [N] of jaw 1 and jaw 2
+  double moment_across = kNan;  ///< [N m] that the pusher exerts about axes in the pad
+                                ///< plane, through the middle of the grasp
+  double pressed = kNan;        ///< share of the pads' points that carry load
+  double out_of_plane = kNan;   ///< fastest motion of the object along the closing
+                                ///< direction over the pads, as a share of what counts
+                                ///< as leaving the pad plane
 };
 
 struct Transition {
@@ -98,6 +123,10 @@ struct Transition {
   double max_push_force = kNan;  ///< [N]
   double min_push_force = kNan;  ///< [N]
   double worst_certificate = kNan;
+  bool in_space = false;          ///< the instants were spatial; then
+  double least_jaw_force = kNan;  ///< [N] of the looser jaw
+  double least_pressed = kNan;    ///< see Sample
+  double most_out_of_plane = kNan;
   int instants = 0;  ///< mechanics calls
   int checks = 0;    ///< of sticking lines, where the motion is known and only the
                      ///< pusher's forces are looked at; a small part of an instant

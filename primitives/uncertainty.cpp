@@ -1,6 +1,8 @@
 #include "primitives/uncertainty.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "scene/outline.h"
 
@@ -46,9 +48,9 @@ struct MovePush {
 
 std::string_view name(Unknown unknown) {
   static constexpr std::array<std::string_view, kUnknowns> kNames = {
-      "friction",         "finger friction",  "grip force", "mass",   "torque radius",
-      "centre of mass x", "centre of mass y", "place",      "travel", "direction",
-      "grasp x",          "grasp y",          "grasp angle"};
+      "friction",         "finger friction",  "grip force",  "mass",   "torque radius",
+      "centre of mass x", "centre of mass y", "place",       "travel", "direction",
+      "grasp x",          "grasp y",          "grasp angle", "tilt"};
   return kNames[static_cast<std::size_t>(unknown)];
 }
 
@@ -64,12 +66,75 @@ std::vector<Unknown> UncertaintyBox::active() const {
   return out;
 }
 
+UncertaintyBox box_of(const CalibrationRecord& record) {
+  constexpr double kMostShare = 0.95;
+  UncertaintyBox box;
+  box[Unknown::kFriction] = std::min(kMostShare, record.friction);
+  box[Unknown::kFingerFriction] = std::min(kMostShare, record.finger_friction);
+  box[Unknown::kTorqueRadius] = std::min(kMostShare, record.torque_radius);
+  box[Unknown::kPlace] = box[Unknown::kTravel] = record.place;
+  return box;
+}
+
+UncertaintyBox usual_box() {
+  UncertaintyBox box;
+  box[Unknown::kFriction] = 0.10;
+  box[Unknown::kFingerFriction] = 0.05;
+  box[Unknown::kGripForce] = 0.03;
+  box[Unknown::kMass] = 0.01;
+  box[Unknown::kTorqueRadius] = 0.10;
+  box[Unknown::kCentreOfMassX] = box[Unknown::kCentreOfMassY] = 0.7e-3;
+  box[Unknown::kPlace] = 1e-3;
+  box[Unknown::kGraspX] = box[Unknown::kGraspY] = 0.5e-3;
+  box[Unknown::kTilt] = 0.5 * std::numbers::pi / 180.0;
+  return box;
+}
+
+UncertaintyBox stated_box(const Scene& scene) {
+  UncertaintyBox box;
+  if (!scene.uncertainty) return box;
+  const Uncertainty& u = *scene.uncertainty;
+  box[Unknown::kFriction] = u.friction;
+  box[Unknown::kFingerFriction] = u.finger_friction;
+  box[Unknown::kGripForce] = u.grip_force;
+  box[Unknown::kMass] = u.mass;
+  box[Unknown::kTorqueRadius] = u.torque_radius;
+  box[Unknown::kCentreOfMassX] = box[Unknown::kCentreOfMassY] = u.centre_of_mass;
+  box[Unknown::kGraspX] = box[Unknown::kGraspY] = u.start_position;
+  box[Unknown::kGraspAngle] = u.start_angle;
+  box[Unknown::kPlace] = u.pusher_place;
+  box[Unknown::kTilt] = u.pusher_tilt;
+  return box;
+}
+
+UncertaintyBox box_of(const Scene& scene) {
+  UncertaintyBox box = stated_box(scene);
+  const bool normal = scene.uncertainty && scene.uncertainty->spread == Spread::kNormal;
+  if (!normal) return box;
+  for (double& width : box.half_width) width *= scene.uncertainty->sigmas;
+  return box;
+}
+
 BoxPoint random_point(std::uint64_t seed, std::uint64_t index) {
   BoxPoint point;
   std::uint64_t state = mixed(mixed(seed) + index);
   for (double& coordinate : point) {
     state = mixed(state);
     coordinate = 2.0 * static_cast<double>(state >> 11) * 0x1.0p-53 - 1.0;
+  }
+  return point;
+}
+
+BoxPoint random_normal_point(std::uint64_t seed, std::uint64_t index) {
+  BoxPoint point;
+  std::uint64_t state = mixed(mixed(seed) + index);
+  const auto uniform = [&state] {  // in (0, 1]
+    state = mixed(state);
+    return (static_cast<double>(state >> 11) + 1.0) * 0x1.0p-53;
+  };
+  for (double& coordinate : point) {
+    const double radius = std::sqrt(-2.0 * std::log(uniform()));
+    coordinate = radius * std::cos(2.0 * std::numbers::pi * uniform());
   }
   return point;
 }
@@ -118,8 +183,10 @@ UncertainPush vary(const Scene& scene, const Grasp& start, const Push& push,
     out.scene.object.p_OCom = Vec2(centre_of_mass(scene.object) + shift);
     out.scene.object.z_OCom = height_of_mass(scene.object);
   }
+  const double tilt = offset(Unknown::kTilt);
+  for (Pusher& pusher : out.scene.pushers) pusher.normal_angle += tilt;
   std::visit(MovePush{offset(Unknown::kPlace), offset(Unknown::kTravel),
-                      offset(Unknown::kDirection)},
+                      offset(Unknown::kDirection) - tilt},
              out.push);
   if (const double angle = offset(Unknown::kGraspAngle); angle != 0.0) {
     out.start.X_HO =

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "mechanics/sticking.h"
 #include "primitives/push.h"
 
 namespace prehensile {
@@ -26,6 +27,8 @@ enum class Unknown {
   kGraspX,     ///< [m] of the object in the hand, along x of H
   kGraspY,
   kGraspAngle,  ///< [rad] of the object in the hand, about the finger axis
+  kTilt,  ///< [rad] of the pushers in the world: the object, flush with a pusher, stands
+          ///< otherwise against gravity and against the motion of the hand
   kCount
 };
 inline constexpr int kUnknowns = static_cast<int>(Unknown::kCount);
@@ -53,12 +56,39 @@ struct UncertaintyBox {
   std::vector<Unknown> active() const;
 };
 
+/// What stayed uncertain after a calibration.
+UncertaintyBox box_of(const CalibrationRecord& record);
+
+/// The box that plans survive if nothing else is said: frictions of the pushers 10 %, of
+/// the fingers 5 %, grip force 3 %, mass 1 %, torque radius 10 %, centre of mass 0.7 mm,
+/// place of the pusher 1 mm and its angle 0.5 deg, object in the hand 0.5 mm.
+UncertaintyBox usual_box();
+
+/// The scene's own uncertainty as a box: half widths, or of a normal distribution as many
+/// standard deviations as it says; zero if the scene states none.
+UncertaintyBox box_of(const Scene& scene);
+
+/// The widths as stated: standard deviations where the distribution is normal.
+UncertaintyBox stated_box(const Scene& scene);
+
+/// The margin of the stick tests that covers every member of a box: a push with robust
+/// slack >= 0 over it sticks for all of them. Exact intervals where the tests are
+/// monotone (friction; weight over friction force, from the corners of mass, grip and
+/// finger friction), else a disc or an angle around the box. kTravel and kGraspAngle ask
+/// for nothing: neither enters the tests of a disc. A friction force that may vanish
+/// gives an infinite margin, which nothing survives.
+Margin margin_of(const Model& model, const UncertaintyBox& box);
+
 /// A place in the box: each coordinate in [-1, 1] half widths.
 using BoxPoint = std::array<double, kUnknowns>;
 
 /// Uniform in the box, the same for the same seed and index; coordinates of width zero
 /// are drawn too, so that leaving one unknown out does not change the others.
 BoxPoint random_point(std::uint64_t seed, std::uint64_t index);
+
+/// The same with a normal distribution of deviation 1 in every coordinate (Box, Muller
+/// 1958).
+BoxPoint random_normal_point(std::uint64_t seed, std::uint64_t index);
 
 /// A corner of the active coordinates: bit k of `index` is the sign of the k-th of them.
 BoxPoint corner(const UncertaintyBox& box, std::uint64_t index);

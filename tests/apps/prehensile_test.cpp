@@ -104,14 +104,27 @@ TEST(Program, WhatFallsThroughTheJawsIsANegativeAnswer) {
   }
 }
 
-/// Commands that know the pad plane say so where the scene needs more.
-TEST(Program, WhatThePadPlaneLeavesOutIsSaid) {
+/// Pushes are followed in space where the scene needs it, and only there; a search in the
+/// pad plane says that it is one.
+TEST(Program, PushesAreFollowedInSpaceWhereTheSceneNeedsIt) {
   const std::string push = "query push problems/";
-  EXPECT_EQ(run_program(push + "paper/slide.yaml --travel-mm 5").err.find("note:"),
-            std::string::npos);
+  const Outcome level = run_program(push + "paper/slide.yaml --travel-mm 5 --json");
+  EXPECT_FALSE(json::parse(level.out).at("in_space").get<bool>());
+  EXPECT_EQ(level.err.find("note:"), std::string::npos);
   const Outcome tilted = run_program(push + "tilted_hand.yaml --travel-mm 5 --json");
-  EXPECT_NE(tilted.err.find("note: answered in the pad plane"), std::string::npos);
-  EXPECT_TRUE(json::accept(tilted.out));
+  ASSERT_EQ(tilted.exit_code, 0) << tilted.out << tilted.err;
+  EXPECT_EQ(tilted.err.find("note:"), std::string::npos);
+  const json answer = json::parse(tilted.out);
+  EXPECT_TRUE(answer.at("in_space").get<bool>());
+  EXPECT_LT(answer.at("certificate"), 1e-6);
+  const json& sample = answer.at("samples").at(0);
+  const double jaws = sample.at("jaw_force").at(0).get<double>() +
+                      sample.at("jaw_force").at(1).get<double>();
+  EXPECT_NEAR(jaws, 60.0, 1e-6);  // coupled: twice the grip force
+  const Outcome text = run_program(push + "tilted_hand.yaml --travel-mm 5");
+  EXPECT_NE(text.out.find("followed in space"), std::string::npos);
+  const Outcome place = run_program("query place problems/tilted_hand.yaml --to 5,0,0");
+  EXPECT_NE(place.err.find("note: searched in the pad plane"), std::string::npos);
 }
 
 /// A straight slide of an object with mass: the force grows by mass times acceleration,

@@ -10,6 +10,7 @@
 #include "planner/polish.h"
 #include "planner/push_search.h"
 #include "planner/replay.h"
+#include "primitives/uncertainty.h"
 #include "tests/planner/planner_cases.h"
 #include "tests/support/no_heap.h"
 #include "tests/support/random.h"
@@ -28,7 +29,7 @@ constexpr double kPi = std::numbers::pi;
 double seconds_of_search(const Model& model) {
   const PlanOptions options;
   const auto begin = std::chrono::steady_clock::now();
-  const SearchModel search = prepare_search(model, options.margin);
+  const SearchModel search = prepare_search(model, margin_of(model, usual_box()));
   Work work{.budget = options.budget};
   search_pushes(search, model.scene.start, *model.scene.goal, options, work);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;

@@ -157,5 +157,23 @@ TEST(GripRange, RefusesWhatMakesNoSense) {
   EXPECT_FALSE(none.reason.empty());
 }
 
+// In space: gravity along the closing direction takes half the weight off one jaw's
+// force, so the object falls through jaws that grip with less than that, and tilts
+// between them a little above.
+TEST(GripRange, JawsThatCarryTheWeight) {
+  Scene scene = square_scene(1.5);
+  scene.g_W.setZero();
+  scene.g_Wz = -kGravity;
+  const Model model = prepare(scene);
+  const GripRange range = grip_range(model, {}, Slide{0, 0.0, {1.0, 0.0}, 0.004, 0.5});
+  ASSERT_TRUE(range.found) << range.reason;
+  const double half_weight = 0.5 * 1.5 * kGravity;
+  EXPECT_GE(range.low.force, half_weight);
+  EXPECT_LT(range.low.force, 4.0 * half_weight);
+  EXPECT_TRUE(range.low.inside.in_space);
+  EXPECT_FALSE(range.low.outside.completed());
+  EXPECT_TRUE(range.high.is_open);
+}
+
 }  // namespace
 }  // namespace prehensile

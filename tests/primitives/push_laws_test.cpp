@@ -14,19 +14,7 @@ namespace {
 
 using testing::distance;
 using testing::has_event;
-
-RandomPush mirrored(RandomPush c) {
-  const auto flip = [](Vec2& v) { v.y() = -v.y(); };
-  flip(c.scene.g_W);
-  c.scene.pushers[0].normal_angle *= -1.0;
-  c.push.place *= -1.0;
-  flip(c.push.e);
-  c.push.turn *= -1.0;
-  c.push.bend *= -1.0;
-  c.scene.start.X_HO.y *= -1.0;
-  c.scene.start.X_HO.theta *= -1.0;
-  return c;
-}
+using testing::mirrored;
 
 TEST(PushLaw, MirrorImagesMoveAsMirrorImages) {
   for (int seed = 0; seed < 300; ++seed) {

@@ -1,0 +1,68 @@
+#include "apps/arm_options.h"
+
+#include <numbers>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/table.h"
+
+namespace prehensile::apps {
+namespace {
+
+ArmLimits limits_of(const ArmOptions& options) {
+  ArmLimits limits = options.limits;
+  limits.push_speed = 1e-3 * options.push_speed_mm;
+  limits.approach_speed = 1e-3 * options.approach_speed_mm;
+  limits.transit_speed = 1e-3 * options.transit_speed_mm;
+  limits.clearance = 1e-3 * options.clearance_mm;
+  limits.turn_speed = options.turn_speed_deg * std::numbers::pi / 180.0;
+  return limits;
+}
+
+}  // namespace
+
+void add_arm_options(CLI::App& command, ArmOptions& options) {
+  const auto number = [&command](const char* flag, double& value, const char* doc,
+                                 double most) {
+    command.add_option(flag, value, doc)
+        ->check(CLI::Range(1e-3, most))
+        ->capture_default_str();
+  };
+  command.add_option("--arm", options.files,
+                     "write the motion of the arm: .csv (all), .tum (tool poses) or "
+                     ".yaml; may be given again");
+  number("--push-speed-mm-s", options.push_speed_mm, "of the hand during a push", 1e4);
+  number("--approach-speed-mm-s", options.approach_speed_mm, "before and after it", 1e4);
+  number("--transit-speed-mm-s", options.transit_speed_mm, "between placements", 1e4);
+  number("--turn-speed-deg-s", options.turn_speed_deg, "of the hand at most", 1e4);
+  number("--acceleration", options.limits.acceleration, "of the hand at most, in m/s^2",
+         1e3);
+  number("--turn-acceleration", options.limits.turn_acceleration, "at most, in rad/s^2",
+         1e4);
+  number("--clearance-mm", options.clearance_mm, "from a pusher before and after", 1e3);
+  number("--arm-rate-hz", options.limits.rate, "samples per second", 1e3);
+  number("--guard-factor", options.limits.guard_factor,
+         "guard force over the greatest force expected", 100.0);
+}
+
+void check_arm_files(const ArmOptions& options) {
+  for (const std::string& file : options.files) arm_format(file);
+}
+
+std::string write_arm_files(const ArmOptions& options, const Model& model,
+                            const PlanFile& plan) {
+  if (options.files.empty()) return {};
+  if (!plan.plan.usable()) return "no plan, so no arm file is written\n";
+  const ArmLimits limits = limits_of(options);
+  const ArmMotion motion = arm_motion(model, plan.plan, limits);
+  const double seconds = motion.samples.empty() ? 0.0 : motion.samples.back().t;
+  std::string out;
+  for (const std::string& file : options.files) {
+    write_atomically(file, arm_to_text(plan, motion, limits, arm_format(file)));
+    out += "arm file: " + file +
+           text(" (%zu samples, %.2f s)\n", motion.samples.size(), seconds);
+  }
+  return out;
+}
+
+}  // namespace prehensile::apps

@@ -1,0 +1,235 @@
+#include "planner/advice.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "primitives/uncertainty.h"
+
+namespace prehensile {
+namespace {
+
+constexpr double kMostFriction = 2.0;  // what any pusher might be covered with
+constexpr double kUsualFriction = 0.5;
+constexpr double kPusherDistance = 0.1;  // [m] of a proposed pusher from the face
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+/// Tries changed scenes and keeps those that can be planned.
+class Adviser {
+ public:
+  Adviser(const Model& model, const Plan& plan, const PlanOptions& options,
+          const AdviceOptions& advice)
+      : model_(model), plan_(plan), options_(options) {
+    options_.budget = std::min(options.budget, advice.budget);
+    options_.nominal_if_needed = false;
+    options_.time_limit = 0.0;
+    wanted_ = options.margin.value_or(margin_of(model, usual_box()));
+  }
+
+  std::vector<ProposedChange> changes() {
+    try_margins();
+    try_frictions();
+    try_grip_forces();
+    try_tolerances();
+    try_free_angle();
+    try_pushers();
+    return std::move(changes_);
+  }
+
+ private:
+  bool stopped() const { return options_.stop && options_.stop->load(); }
+
+  /// Keeps the change if its scene can be planned with this margin.
+  bool works(const Scene& scene, const Margin& margin, ProposedChange change) {
+    if (stopped() || !check(scene).empty()) return false;
+    options_.margin = margin;
+    const Plan plan = plan_regrasp(prepare(scene, model_.options), options_);
+    if (!plan.usable()) return false;
+    change.cost = plan.cost;
+    changes_.push_back(std::move(change));
+    return true;
+  }
+
+  bool works(const Scene& scene, ProposedChange change) {
+    return works(scene, wanted_, std::move(change));
+  }
+
+  void try_margins() {
+    if (plan_.promise != Promise::kNominalOnly) return;  // less was tried already
+    for (const double factor : {0.75, 0.5, 0.25}) {
+      ProposedChange change{"a margin of " + number(100.0 * factor) +
+                            " % of the one asked for"};
+      if (options_.promise == Promise::kMargin) {
+        change.option = "--margin " + number(factor);
+      }
+      if (works(model_.scene, wanted_.scaled(factor), std::move(change))) return;
+    }
+  }
+
+  void try_frictions() {
+    const std::vector<Pusher>& pushers = model_.scene.pushers;
+    for (std::size_t i = 0; i < pushers.size(); ++i) {
+      const double from = pushers[i].friction;
+      for (const double factor : {1.25, 1.5, 2.0, 3.0}) {
+        const double to = std::max(factor * from, from == 0.0 ? 0.1 * factor : 0.0);
+        if (to > kMostFriction) break;
+        Scene scene = model_.scene;
+        scene.pushers[i].friction = to;
+        ProposedChange change{"friction of pusher " + pushers[i].name + " " +
+                              number(from) + " -> " + number(to)};
+        change.option = "--set pushers." + std::to_string(i) + ".friction=" + number(to);
+        if (works(scene, std::move(change))) break;
+      }
+    }
+  }
+
+  void try_grip_forces() {
+    const double from = model_.scene.gripper.grip_force;
+    for (const double factor : {1.25, 1.5, 2.0, 4.0}) {
+      Scene scene = model_.scene;
+      scene.gripper.grip_force = factor * from;
+      ProposedChange change{"grip force " + number(from) + " N -> " +
+                            number(factor * from) + " N"};
+      change.option = "--set gripper.grip_force=" + number(factor * from);
+      if (works(scene, std::move(change))) return;
+    }
+  }
+
+  void try_tolerances() {
+    const Goal& goal = *model_.scene.goal;
+    for (const double factor : {2.0, 5.0, 10.0, 20.0}) {
+      Scene scene = model_.scene;
+      const double to = factor * goal.position_tolerance;
+      scene.goal->position_tolerance = to;
+      ProposedChange change{"position tolerance of the goal " +
+                            number(1e3 * goal.position_tolerance) + " mm -> " +
+                            number(1e3 * to) + " mm"};
+      change.option = "--set goal.tolerance.position=" + number(to);
+      if (works(scene, std::move(change))) break;
+    }
+    if (goal.test != GoalTest::kPerCoordinate || !goal.theta) return;
+    constexpr double kDegree = std::numbers::pi / 180.0;
+    for (const double degrees : {5.0, 10.0, 20.0, 45.0}) {
+      if (degrees * kDegree <= goal.angle_tolerance) continue;
+      Scene scene = model_.scene;
+      scene.goal->angle_tolerance = degrees * kDegree;
+      ProposedChange change{"angle tolerance of the goal " +
+                            number(goal.angle_tolerance / kDegree) + " deg -> " +
+                            number(degrees) + " deg"};
+      change.option = "--set goal.tolerance.angle_deg=" + number(degrees);
+      if (works(scene, std::move(change))) return;
+    }
+  }
+
+  void try_free_angle() {
+    if (!model_.scene.goal->theta) return;
+    Scene scene = model_.scene;
+    scene.goal->theta.reset();
+    works(scene, {"a goal without an angle (leave goal.theta out)"});
+  }
+
+  /// One flat pusher more, against each face that none touches yet.
+  void try_pushers() {
+    for (std::size_t i = 0; i < model_.faces.size(); ++i) {
+      const Face& face = model_.faces[i];
+      const bool is_touched = std::any_of(
+          model_.contacts.begin(), model_.contacts.end(),
+          [&](const PushContact& c) { return c.face == static_cast<int>(i); });
+      if (is_touched || !face.on_hull) continue;
+      Scene scene = model_.scene;
+      Pusher pusher;
+      pusher.name = "wall_at_" + face.name;
+      pusher.feature = LineFeature{};
+      pusher.friction = kUsualFriction;
+      for (const Pusher& other : scene.pushers) {
+        pusher.friction = std::max(pusher.friction, other.friction);
+      }
+      pusher.p_WP = face.centre() - kPusherDistance * face.n;
+      pusher.normal_angle = std::atan2(face.n.y(), face.n.x());
+      pusher.faces = {face.name};
+      ProposedChange change{"one more pusher, a wall of friction " +
+                            number(pusher.friction) + " against face " + face.name};
+      change.pusher =
+          "{name: " + pusher.name + ", line: {}, friction: " + number(pusher.friction) +
+          ", position: [" + number(pusher.p_WP.x()) + ", " + number(pusher.p_WP.y()) +
+          "], normal_deg: " + number(pusher.normal_angle * 180.0 / std::numbers::pi) +
+          ", faces: [\"" + face.name + "\"]}";
+      scene.pushers.push_back(std::move(pusher));
+      works(scene, std::move(change));
+    }
+  }
+
+  const Model& model_;
+  const Plan& plan_;
+  PlanOptions options_;
+  Margin wanted_;
+  std::vector<ProposedChange> changes_;
+};
+
+/// "62 % because ..., 21 % because ..."
+std::string shares(const Obstacles& obstacles) {
+  std::array<int, kObstacles> order;
+  for (int i = 0; i < kObstacles; ++i) order[static_cast<std::size_t>(i)] = i;
+  const auto count = [&](int i) { return obstacles[static_cast<Obstacle>(i)]; };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return count(a) > count(b); });
+  const double total = static_cast<double>(obstacles.total());
+  std::string out;
+  for (int k = 0; k < 3; ++k) {
+    const int i = order[static_cast<std::size_t>(k)];
+    const double share = static_cast<double>(count(i)) / total;
+    if (share < 0.01) break;
+    if (!out.empty()) out += ", ";
+    out += number(std::round(100.0 * share));
+    out += " % because ";
+    out += name(static_cast<Obstacle>(i));
+  }
+  return out;
+}
+
+std::string paragraph(const Plan& plan, const Explanation& explanation) {
+  std::string text;
+  if (plan.status == PlanStatus::kInfeasible) {
+    text = "No plan exists: " + plan.proof.text + ".";
+  } else if (plan.usable()) {
+    text = "Only a nominal plan was found.";
+  } else {
+    text = "No plan was found, which does not prove that there is none.";
+  }
+  if (plan.obstacles.total() > 0) {
+    text += " Of " + std::to_string(plan.obstacles.total()) +
+            " pushes that the search gave up, " + shares(plan.obstacles) + ".";
+  }
+  if (explanation.changes.empty()) {
+    return text +
+           " None of the changes that were tried (frictions, grip force, "
+           "tolerances, angle of the goal, one pusher more) makes it solvable.";
+  }
+  text += " It can be solved with ";
+  for (std::size_t i = 0; i < explanation.changes.size(); ++i) {
+    if (i > 0) text += i + 1 == explanation.changes.size() ? "; or with " : "; with ";
+    text += explanation.changes[i].what;
+  }
+  return text + ".";
+}
+
+}  // namespace
+
+Explanation explain(const Model& model, const Plan& plan, const PlanOptions& options,
+                    const AdviceOptions& advice) {
+  Explanation explanation;
+  if (model.scene.goal) {
+    explanation.changes = Adviser(model, plan, options, advice).changes();
+  }
+  explanation.text = paragraph(plan, explanation);
+  return explanation;
+}
+
+}  // namespace prehensile

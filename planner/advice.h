@@ -1,0 +1,21 @@
+/// Why a search found no plan, and which change of the scene would let it: every change
+/// that is named has been planned for and worked.
+#pragma once
+
+#include "planner/planner.h"
+
+namespace prehensile {
+
+struct AdviceOptions {
+  std::int64_t budget = 300'000;  ///< stick tests of each trial
+};
+
+/// What stopped the search most, in one paragraph, and the smallest change of each kind
+/// that makes the scene solvable: of the margin, of the frictions of the pushers, of the
+/// grip force, of the goal's tolerances, of its angle, one pusher more. `options` are
+/// those of the plan. Deterministic; ends early when options.stop is set, with the
+/// changes found until then. For plans that are not usable, or nominal only.
+Explanation explain(const Model& model, const Plan& plan, const PlanOptions& options,
+                    const AdviceOptions& advice = {});
+
+}  // namespace prehensile

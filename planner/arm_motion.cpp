@@ -1,0 +1,331 @@
+#include "planner/arm_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mechanics/sticking.h"
+
+namespace prehensile {
+namespace {
+
+constexpr double kPeakRate = 1.875;
+const double kPeakSecondRate = 10.0 / std::sqrt(3.0);
+constexpr double kTouch = 2.0;  // [N] allowed on top where nothing should touch
+
+/// A planar pose of H in W and its place along z.
+struct HandPose {
+  PlanarPose X_WH;
+  double z = 0.0;
+};
+
+ArmPose spatial(const HandPose& hand) {
+  return {{hand.X_WH.x, hand.X_WH.y, hand.z},
+          Eigen::Quaterniond(Eigen::AngleAxisd(hand.X_WH.theta, Vec3::UnitZ()))};
+}
+
+/// P in W while this contact is at this place.
+PlanarPose pusher_in_world(const Model& model, const PushContact& contact, double place) {
+  const Vec2 touched = 0.5 * (contact.a + contact.b) + place * contact.t;
+  const Vec2 p = model.scene.pushers[static_cast<std::size_t>(contact.pusher)].p_WP -
+                 rotated(contact.theta_WO, touched);
+  return {p.x(), p.y(), contact.theta_WO};
+}
+
+/// Force of the pusher on the object, and where it acts; in O.
+struct PushLoad {
+  Vec2 force = Vec2::Zero();
+  Vec2 place = Vec2::Zero();
+};
+
+class MotionWriter {
+ public:
+  MotionWriter(const Model& model, const Plan& plan, const ArmLimits& limits)
+      : model_(model), plan_(plan), limits_(limits) {
+    const ToolTransform& tool = model.scene.gripper.tool;
+    p_HT_ = tool.p_HT;
+    q_HT_ = Eigen::Quaterniond(tool.q_HT[3], tool.q_HT[0], tool.q_HT[1], tool.q_HT[2])
+                .normalized();
+  }
+
+  ArmMotion write() {
+    for (std::size_t i = 0; i < plan_.pushes.size(); ++i) {
+      push_ = static_cast<int>(i);
+      begin_placement();
+      write_push();
+      end_placement();
+    }
+    return std::move(motion_);
+  }
+
+ private:
+  const PlannedPush& planned() const {
+    return plan_.pushes[static_cast<std::size_t>(push_)];
+  }
+  const PushContact& contact() const {
+    return model_.contacts[static_cast<std::size_t>(contact_of(planned().push))];
+  }
+  double place() const { return as_linear(planned().push).place; }
+
+  /// The push with this index goes on where the one before it left the pusher.
+  bool continues(int index) const {
+    if (index <= 0 || index >= static_cast<int>(plan_.pushes.size())) return false;
+    const Push& now = plan_.pushes[static_cast<std::size_t>(index)].push;
+    const Push& before = plan_.pushes[static_cast<std::size_t>(index - 1)].push;
+    return contact_of(now) == contact_of(before) &&
+           std::holds_alternative<Roll>(now) == std::holds_alternative<Roll>(before) &&
+           as_linear(now).place == as_linear(before).place;
+  }
+
+  /// The hand while the object, at X_HO in it, stands off the pusher by `gap`.
+  HandPose hand(const PlanarPose& X_HO, double gap) const {
+    PlanarPose X_WO = pusher_in_world(model_, contact(), place());
+    const Vec2 off = gap * rotated(X_WO.theta, contact().n);
+    X_WO.x += off.x();
+    X_WO.y += off.y();
+    return {compose(X_WO, inverse(X_HO)), z_};
+  }
+
+  void begin_placement() {
+    if (continues(push_)) return;
+    z_ = 0.0;
+    const PlanarPose& X_HO = planned().start.X_HO;
+    const HandPose away = hand(X_HO, limits_.clearance);
+    if (push_ > 0) {
+      const HandPose from = last_;
+      HandPose to = away;
+      to.X_WH.theta =
+          from.X_WH.theta + wrapped(away.X_WH.theta - from.X_WH.theta);  // the short way
+      turns_ = to.X_WH.theta - away.X_WH.theta;
+      const Vec2 way = translation(to.X_WH) - translation(from.X_WH);
+      const double turn = to.X_WH.theta - from.X_WH.theta;
+      move(ArmPhase::kTransit, std::hypot(way.norm(), to.z - from.z), turn,
+           limits_.transit_speed, [&](double s) {
+             return HandPose{{std::lerp(from.X_WH.x, to.X_WH.x, s),
+                              std::lerp(from.X_WH.y, to.X_WH.y, s),
+                              std::lerp(from.X_WH.theta, to.X_WH.theta, s) - turns_},
+                             std::lerp(from.z, to.z, s)};
+           });
+    }
+    move(ArmPhase::kApproach, limits_.clearance, 0.0, limits_.approach_speed,
+         [&](double s) { return hand(X_HO, (1.0 - s) * limits_.clearance); });
+  }
+
+  void write_push() {
+    if (const auto* roll = std::get_if<Roll>(&planned().push)) return write_roll(*roll);
+    const LinearPush push = as_linear(planned().push);
+    const PlanarPose& X_HO = planned().start.X_HO;
+    const PlanarPose X_WP = pusher_in_world(model_, contact(), push.place);
+    move(ArmPhase::kPush, push.travel, push.turn, limits_.push_speed, [&](double s) {
+      return HandPose{compose(X_WP, inverse(pusher_pose(push, X_HO, s))), z_};
+    });
+  }
+
+  void write_roll(const Roll& roll) {
+    const double scene_grip = model_.scene.gripper.grip_force;
+    const double grip = roll.grip_force > 0.0 ? roll.grip_force : scene_grip;
+    change_grip(scene_grip, grip);
+    const HandPose begin = hand(planned().start.X_HO, 0.0);
+    move(ArmPhase::kPush, std::abs(roll.travel), 0.0, limits_.push_speed, [&](double s) {
+      return HandPose{begin.X_WH, begin.z - s * roll.travel};
+    });
+    z_ -= roll.travel;
+    change_grip(grip, scene_grip);
+  }
+
+  void end_placement() {
+    if (continues(push_ + 1)) return;
+    const PlanarPose& X_HO = planned().end.X_HO;
+    move(ArmPhase::kRetreat, limits_.clearance, 0.0, limits_.approach_speed,
+         [&](double s) { return hand(X_HO, s * limits_.clearance); });
+    last_ = hand(X_HO, limits_.clearance);
+    last_.X_WH.theta += turns_;
+  }
+
+  void change_grip(double from, double to) {
+    grip_ = from;
+    if (from == to) return;
+    const HandPose still = hand(planned().start.X_HO, 0.0);
+    run(ArmPhase::kGrip, limits_.grip_seconds, [&](double s) {
+      grip_ = std::lerp(from, to, s);
+      return HandPose{still.X_WH, z_};
+    });
+    grip_ = to;
+  }
+
+  /// A motion of this length and turn within the limits.
+  template <typename Path>
+  void move(ArmPhase phase, double length, double turn, double speed, const Path& path) {
+    const double lever = p_HT_.head<2>().norm();
+    const double way = std::abs(length) + lever * std::abs(turn);
+    const double angle = std::abs(turn);
+    run(phase,
+        std::max({kPeakRate * way / speed, kPeakRate * angle / limits_.turn_speed,
+                  std::sqrt(kPeakSecondRate * way / limits_.acceleration),
+                  std::sqrt(kPeakSecondRate * angle / limits_.turn_acceleration)}),
+        path);
+  }
+
+  template <typename Path>
+  void run(ArmPhase phase, double seconds, const Path& path) {
+    if (motion_.samples.empty()) grip_ = model_.scene.gripper.grip_force;
+    const int steps = std::max(1, static_cast<int>(std::ceil(seconds * limits_.rate)));
+    const std::size_t first = motion_.samples.size();
+    for (int i = 0; i <= steps; ++i) {
+      // The first sample of a phase repeats the last of the one before, under its name.
+      const double share = static_cast<double>(i) / steps;
+      const double s = rest_to_rest(share);
+      const HandPose pose = path(s);
+      add(phase, (steps_ + i) / limits_.rate, s, pose);
+    }
+    steps_ += steps;
+    set_guard(phase, first);
+  }
+
+  void add(ArmPhase phase, double t, double s, HandPose pose) {
+    pose.X_WH.theta += turns_;
+    ArmSample sample{.t = t, .phase = phase, .push = push_};
+    sample.X_WH = spatial(pose);
+    sample.X_WT = {sample.X_WH.position + sample.X_WH.orientation * p_HT_,
+                   sample.X_WH.orientation * q_HT_};
+    sample.grip_force = grip_;
+    set_load(phase, s, pose, sample);
+    motion_.samples.push_back(sample);
+  }
+
+  PushLoad load_at(double s) const {
+    PushLoad load;
+    const LinearPush push = as_linear(planned().push);
+    const PlanarPose& X_HO_start = planned().start.X_HO;
+    const PushContact& touched = contact();
+    if (std::holds_alternative<Roll>(planned().push)) {
+      load.force = planned().push_force * touched.n;
+      load.place = 0.5 * (touched.a + touched.b);
+      return load;
+    }
+    const StickTest test =
+        exact_stick_test(model_, touched, push.place, pusher_pose(push, X_HO_start, s),
+                         push.e, push.travel, push.turn, Margin::none());
+    load.force = test.normal_force * touched.n + test.tangential_force * touched.t;
+    load.place = 0.5 * (touched.a + touched.b) + test.centre_of_pressure * touched.t;
+    return load;
+  }
+
+  /// Push and weight, moved to the tool.
+  void set_load(ArmPhase phase, double s, const HandPose& pose, ArmSample& sample) const {
+    const bool moves = phase == ArmPhase::kPush;
+    const bool rolls = std::holds_alternative<Roll>(planned().push);
+    const PlanarPose X_HO =
+        moves && !rolls ? pusher_pose(as_linear(planned().push), planned().start.X_HO, s)
+        : phase == ArmPhase::kRetreat ? planned().end.X_HO
+                                      : planned().start.X_HO;
+    const PlanarPose X_WO = compose(pose.X_WH, X_HO);
+    const Vec2 com = transform(X_WO, model_.p_OCom);
+    const Vec3 weight(model_.mass * model_.scene.g_W.x(),
+                      model_.mass * model_.scene.g_W.y(),
+                      model_.mass * model_.scene.g_Wz);
+    const Vec3 p_WCom(com.x(), com.y(), pose.z + model_.z_OCom);
+    Vec3 force = weight;
+    Vec3 moment = (p_WCom - sample.X_WT.position).cross(weight);
+    if (moves) {
+      const PushLoad load = load_at(s);
+      const Vec2 f = rotated(X_WO.theta, load.force);
+      const Vec2 p = transform(X_WO, load.place);
+      const double height = 0.5 * (contact().z_low + contact().z_high);
+      const Vec3 pushed(f.x(), f.y(), 0.0);
+      force += pushed;
+      moment += (Vec3(p.x(), p.y(), height) - sample.X_WT.position).cross(pushed);
+    }
+    sample.force = sample.X_WT.orientation.conjugate() * force;
+    sample.moment = sample.X_WT.orientation.conjugate() * moment;
+  }
+
+  /// The greatest load of the phase; before and after a push, where a touch may come
+  /// early or leave late, half of what the push will take on top.
+  void set_guard(ArmPhase phase, std::size_t first) {
+    double most = 0.0;
+    for (std::size_t i = first; i < motion_.samples.size(); ++i) {
+      most = std::max(most, motion_.samples[i].force.norm());
+    }
+    const bool near = phase == ArmPhase::kApproach || phase == ArmPhase::kRetreat;
+    const double touch = near ? 0.5 * planned().push_force : 0.0;
+    const double guard = limits_.guard_factor * most + touch + kTouch;
+    for (std::size_t i = first; i < motion_.samples.size(); ++i) {
+      motion_.samples[i].guard_force = guard;
+    }
+  }
+
+  const Model& model_;
+  const Plan& plan_;
+  const ArmLimits& limits_;
+  Vec3 p_HT_;
+  Eigen::Quaterniond q_HT_;
+  ArmMotion motion_;
+  int push_ = 0;
+  int steps_ = 0;  // of 1 / rate since the motion began
+  double grip_ = 0.0;
+  double z_ = 0.0;      // of the hand, which rolls leave off the mid-plane
+  double turns_ = 0.0;  // whole turns that keep the angle of the hand continuous
+  HandPose last_;
+};
+
+}  // namespace
+
+std::string_view name(ArmPhase phase) {
+  switch (phase) {
+    case ArmPhase::kTransit:
+      return "transit";
+    case ArmPhase::kApproach:
+      return "approach";
+    case ArmPhase::kGrip:
+      return "grip";
+    case ArmPhase::kPush:
+      return "push";
+    case ArmPhase::kRetreat:
+      return "retreat";
+  }
+  return "unknown";
+}
+
+double rest_to_rest(double u) noexcept {
+  return u * u * u * (10.0 + u * (-15.0 + 6.0 * u));
+}
+
+ArmMotion arm_motion(const Model& model, const Plan& plan, const ArmLimits& limits) {
+  return MotionWriter(model, plan, limits).write();
+}
+
+PushFromPoses push_from_poses(const std::vector<ArmPose>& X_WH, const PlanarPose& X_HO,
+                              const LinearPush& push) {
+  PushFromPoses found{push};
+  if (X_WH.empty()) return found;
+  std::vector<Vec2> path;     // of the finger axis in P
+  std::vector<double> turns;  // of P in the hand, summed up over the samples
+  const auto angle = [](const ArmPose& pose) {
+    return 2.0 * std::atan2(pose.orientation.z(), pose.orientation.w());
+  };
+  const auto planar = [&](const ArmPose& pose) {
+    return PlanarPose{pose.position.x(), pose.position.y(), angle(pose)};
+  };
+  const PlanarPose X_WP = compose(planar(X_WH.front()), X_HO);
+  double turn = 0.0;
+  for (std::size_t i = 0; i < X_WH.size(); ++i) {
+    if (i > 0) turn -= wrapped(angle(X_WH[i]) - angle(X_WH[i - 1]));
+    path.push_back(translation(compose(inverse(X_WP), planar(X_WH[i]))));
+    turns.push_back(turn);
+  }
+  const Vec2 way = path.back() - path.front();
+  found.push.travel = way.norm();
+  found.push.turn = turn;
+  if (found.push.travel > 0.0) found.push.e = -way / found.push.travel;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const Vec2 done = path[i] - path.front();
+    const double along = -found.push.e.dot(done);
+    found.stray = std::max(found.stray, (done + along * found.push.e).norm());
+    if (found.push.travel <= 0.0) continue;
+    const double expected = turn * along / found.push.travel;
+    found.stray_angle = std::max(found.stray_angle, std::abs(turns[i] - expected));
+  }
+  return found;
+}
+
+}  // namespace prehensile

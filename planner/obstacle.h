@@ -1,0 +1,48 @@
+/// What stopped the pushes that a search tried, counted by constraint.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace prehensile {
+
+enum class Obstacle {
+  kOffObject,     ///< the pads would leave the face on the way
+  kGravity,       ///< the grasp alone would not hold the object at an end of the push
+  kBackwards,     ///< the motion leads away from the pusher
+  kFrictionCone,  ///< the motion is flatter than the friction of the pusher allows
+  kFaceEnds,      ///< the force would have to act beyond the ends of the face
+  kRotation,      ///< the pushes stick, but cannot turn the object as far as needed
+  kRealPads,      ///< sticks by the closed form, but not with the real pads
+  kCount
+};
+inline constexpr int kObstacles = static_cast<int>(Obstacle::kCount);
+
+/// "the pads would leave the object", ...
+std::string_view name(Obstacle obstacle);
+
+/// How often each was met.
+struct Obstacles {
+  std::array<std::int64_t, kObstacles> count{};
+
+  void add(Obstacle obstacle) { ++count[static_cast<std::size_t>(obstacle)]; }
+  std::int64_t operator[](Obstacle obstacle) const {
+    return count[static_cast<std::size_t>(obstacle)];
+  }
+  std::int64_t total() const {
+    std::int64_t sum = 0;
+    for (const std::int64_t n : count) sum += n;
+    return sum;
+  }
+  /// The most frequent; the first of several.
+  Obstacle worst() const {
+    std::size_t most = 0;
+    for (std::size_t i = 1; i < count.size(); ++i) {
+      if (count[i] > count[most]) most = i;
+    }
+    return static_cast<Obstacle>(most);
+  }
+};
+
+}  // namespace prehensile

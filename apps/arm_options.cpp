@@ -1,5 +1,7 @@
 #include "apps/arm_options.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include <CLI/CLI.hpp>
@@ -17,6 +19,28 @@ ArmLimits limits_of(const ArmOptions& options) {
   limits.clearance = 1e-3 * options.clearance_mm;
   limits.turn_speed = options.turn_speed_deg * std::numbers::pi / 180.0;
   return limits;
+}
+
+constexpr double kMostSamples = 1e6;
+
+/// A file that nobody could read is refused before it fills the memory.
+void refuse_endless(const Plan& plan, const ArmLimits& limits) {
+  const double slowest =
+      std::min({limits.push_speed, limits.approach_speed, limits.transit_speed});
+  double seconds = 0.0;
+  for (const PlannedPush& push : plan.pushes) {
+    const LinearPush linear = as_linear(push.push);
+    const double way = linear.travel + 4.0 * limits.clearance;
+    const double turn = std::abs(linear.turn) + std::numbers::pi;
+    seconds += 2.0 * (way / slowest + turn / limits.turn_speed) +
+               4.0 * (std::sqrt(way / limits.acceleration) +
+                      std::sqrt(turn / limits.turn_acceleration));
+  }
+  if (seconds * limits.rate <= kMostSamples) return;
+  throw BadInput(
+      text("--arm: a motion of about %.2g s at %g Hz: expected at most %.0e "
+           "samples; move faster or lower --arm-rate-hz",
+           seconds, limits.rate, kMostSamples));
 }
 
 }  // namespace
@@ -54,6 +78,7 @@ std::string write_arm_files(const ArmOptions& options, const Model& model,
   if (options.files.empty()) return {};
   if (!plan.plan.usable()) return "no plan, so no arm file is written\n";
   const ArmLimits limits = limits_of(options);
+  refuse_endless(plan.plan, limits);
   const ArmMotion motion = arm_motion(model, plan.plan, limits);
   const double seconds = motion.samples.empty() ? 0.0 : motion.samples.back().t;
   std::string out;

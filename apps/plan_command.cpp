@@ -34,6 +34,7 @@ struct Options {
   ArmOptions arm;
   std::string output = "plan.json";
   double margin = 1.0;
+  double progress_seconds = 1.0;
   bool nominal = false, robust = false, no_polish = false, no_advice = false;
 };
 
@@ -51,7 +52,7 @@ void set_margin(const Options& options, const Model& model, PlanOptions& plan) {
 
 /// Plans; where that fails, or only a nominal plan exists, says what would help.
 Plan planned(const Options& options, const Model& model) {
-  ProgressLine line;
+  ProgressLine line(options.progress_seconds);
   PlanOptions plan_options = options.plan;
   set_margin(options, model, plan_options);
   plan_options.polish = !options.no_polish;
@@ -144,6 +145,11 @@ Command add_plan(CLI::App& app) {
   command.add_flag("--improve", options->plan.improve,
                    "search on for cheaper plans after the first one, until the budget, "
                    "the time or Ctrl-C ends it");
+  command
+      .add_option("--progress-s", options->progress_seconds,
+                  "seconds between lines of progress, and before the first")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
   command.add_flag("--no-polish", options->no_polish,
                    "keep the plan as the search found it");
   command.add_flag("--no-advice", options->no_advice,

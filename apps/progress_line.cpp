@@ -7,14 +7,8 @@
 #include "apps/table.h"
 
 namespace prehensile::apps {
-namespace {
-
-constexpr double kLineInterval = 1.0;  // [s] between plain lines
-
-}  // namespace
-
-ProgressLine::ProgressLine(double quiet_seconds)
-    : is_terminal_(::isatty(STDERR_FILENO) != 0), next_(quiet_seconds) {}
+ProgressLine::ProgressLine(double interval)
+    : is_terminal_(::isatty(STDERR_FILENO) != 0), interval_(interval), next_(interval) {}
 
 ProgressLine::~ProgressLine() {
   if (is_shown_ && is_terminal_) std::fputs("\r\033[K", stderr);
@@ -29,7 +23,7 @@ void ProgressLine::show(const SearchProgress& progress) {
     std::fflush(stderr);
     return;
   }
-  next_ = progress.seconds + kLineInterval;
+  next_ = progress.seconds + interval_;
   std::fprintf(stderr, "%s\n", line.c_str());
 }
 

@@ -10,8 +10,8 @@ namespace prehensile::apps {
 
 class ProgressLine {
  public:
-  /// `quiet_seconds`: a search that is faster than this shows nothing.
-  explicit ProgressLine(double quiet_seconds = 1.0);
+  /// `interval` [s] between plain lines; a search that is faster shows nothing.
+  explicit ProgressLine(double interval);
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -21,6 +21,7 @@ class ProgressLine {
  private:
   bool is_terminal_;
   bool is_shown_ = false;
+  double interval_;
   double next_;  ///< [s] of the search at which the next line is due
 };
 

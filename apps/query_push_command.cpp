@@ -63,13 +63,16 @@ std::string describe(const Model& model, const Options& options,
            std::string(name(transition.events[i].kind)) + '\n';
   }
   out += "end: " + pose_text(model, transition.end) + '\n';
-  return out + text(
-                   "force %.4f to %.4f N, slipped %.3f mm, estimated error %.2g um, "
-                   "certificate "
-                   "%.0e, %d instants\n",
-                   transition.min_push_force, transition.max_push_force,
-                   to_mm(transition.slipped), 1e6 * transition.error_estimate,
-                   transition.worst_certificate, transition.instants);
+  // A push that stops at once may have no instant to tell of.
+  if (std::isfinite(transition.max_push_force)) {
+    out += text("force %.4f to %.4f N, certificate %.0e, ", transition.min_push_force,
+                transition.max_push_force, transition.worst_certificate);
+  }
+  if (std::isfinite(transition.error_estimate)) {
+    out += text("estimated error %.2g um, ", 1e6 * transition.error_estimate);
+  }
+  return out + text("slipped %.3f mm, %d instants\n", to_mm(transition.slipped),
+                    transition.instants);
 }
 
 nlohmann::ordered_json pose_json(const Grasp& grasp) {

@@ -85,7 +85,7 @@ void set_factors(const Options& options, const Scene& scene, SpreadReport& repor
     if (own) {
       take(*own, text("calibrated on %llu pushes of this set-up (",
                       static_cast<unsigned long long>(scene.calibration->pushes)) +
-                     scene.calibration->data + ")");
+                     scene.calibration->data + "), for pushes like them");
       return;
     }
   }

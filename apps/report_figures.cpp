@@ -76,6 +76,7 @@ SweepRow answered(const Model& model, const SweepQuestion& question) {
 
 std::vector<double> spaced(double low, double high, int count) {
   std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i)
     values.push_back(low + i * (high - low) / (count - 1.0));
   return values;

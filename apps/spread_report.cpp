@@ -30,6 +30,7 @@ std::string interval_name(const SpreadReport& report) {
 }
 
 std::string range_text(int part, double low, double high) {
+  if (!std::isfinite(low) || !std::isfinite(high)) return "-";  // no push was completed
   return text("%+.3f to %+.3f", shown(part, low), shown(part, high));
 }
 

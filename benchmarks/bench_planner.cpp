@@ -1,12 +1,15 @@
 /// Success, time and cost of the planners, one CSV line per run, failures included.
 ///
-/// Sets: `published`, 50 regrasps each of a square and a T; `constructed`, 100 each of
-/// boxes, Ts and cans, feasible by construction. Our own planner runs with its default
-/// budget, once per problem: it draws no random numbers. OMPL's run with a time limit,
-/// once per seed. `search_s` is the search alone, `total_s` all of plan_regrasp: proofs,
-/// search, polish, exact check, bound. A run counts as solved if its plan replays.
+/// Sets: `published`, 50 regrasps each of a square and a T; `ranges`, random ones from
+/// the same ranges, and `wide`, any start and goal at any angle, with and without
+/// gravity; `constructed`, 100 each of boxes, Ts and cans, feasible by construction. Our
+/// own planner runs with its default budget, once per problem: it draws no random
+/// numbers. OMPL's run with a time limit, once per seed. `search_s` is the search alone,
+/// `total_s` all of plan_regrasp: proofs, search, polish, exact check, bound. A run
+/// counts as solved if its plan replays.
 /// `--help` shows the options.
 #include <cstdio>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,37 +36,74 @@ struct Options {
   const char* file = nullptr;
 };
 
+struct Problem {
+  std::string kind;
+  Scene scene;
+};
+
 struct Run {
-  std::string problem, planner;
+  std::string kind, problem, planner;
   std::uint64_t seed;
   Plan plan;
   bool replays = false;
   double search_seconds = kNan;
 };
 
-std::vector<Scene> scenes(const Options& options) {
-  std::vector<Scene> scenes;
-  const auto first = [&](int all) {
-    return options.problems > 0 ? std::min(options.problems, all) : all;
+constexpr int kConstructed = 100;
+constexpr int kRandom = 100;
+constexpr std::uint64_t kSeed = 1;
+
+std::vector<Problem> published_problems(int count) {
+  std::vector<Problem> problems;
+  for (int i = 0; i < count; ++i) {
+    problems.push_back({"square", published_square(i)});
+    problems.push_back({"T", published_tee(i)});
+  }
+  return problems;
+}
+
+std::vector<Problem> random_problems(RegraspRange range, int count) {
+  std::vector<Problem> problems;
+  for (const bool square : {true, false}) {
+    for (const bool gravity : {true, false}) {
+      const std::string kind =
+          std::string(square ? "square" : "T") + (gravity ? ", gravity" : ", none");
+      for (int i = 0; i < count; ++i) {
+        problems.push_back({kind, random_among_walls(square, range, gravity, kSeed, i)});
+      }
+    }
+  }
+  return problems;
+}
+
+std::vector<Problem> constructed_problems(int count) {
+  std::vector<Problem> problems;
+  for (int i = 0; i < count; ++i) {
+    for (const auto& [family, kind] :
+         {std::pair(RegraspFamily::kBox, "box"), std::pair(RegraspFamily::kTee, "T"),
+          std::pair(RegraspFamily::kCylinder, "can")}) {
+      problems.push_back({kind, random_regrasp(family, kSeed, i).scene});
+      problems.back().scene.name = std::string(kind) + " " + std::to_string(i + 1);
+    }
+  }
+  return problems;
+}
+
+bool is_set(const std::string& set) {
+  return set == "published" || set == "ranges" || set == "wide" || set == "constructed";
+}
+
+std::vector<Problem> problems_of(const Options& options) {
+  const auto count = [&](int all) {
+    return options.problems > 0 ? options.problems : all;
   };
   if (options.set == "published") {
-    for (int i = 0; i < first(kPublishedRegrasps); ++i) {
-      scenes.push_back(published_square(i));
-      scenes.push_back(published_tee(i));
-    }
-    return scenes;
+    return published_problems(std::min(count(kPublishedRegrasps), kPublishedRegrasps));
   }
-  constexpr int kConstructed = 100;
-  constexpr std::uint64_t kSeed = 1;
-  for (int i = 0; i < first(kConstructed); ++i) {
-    for (const auto& [family, label] :
-         {std::pair(RegraspFamily::kBox, "box "), std::pair(RegraspFamily::kTee, "T "),
-          std::pair(RegraspFamily::kCylinder, "can ")}) {
-      scenes.push_back(random_regrasp(family, kSeed, i).scene);
-      scenes.back().name = label + std::to_string(i + 1);
-    }
-  }
-  return scenes;
+  if (options.set == "constructed") return constructed_problems(count(kConstructed));
+  const bool wide = options.set == "wide";
+  return random_problems(wide ? RegraspRange::kWide : RegraspRange::kPublished,
+                         count(kRandom));
 }
 
 bool is_own(const std::string& planner) { return planner == PlanOptions{}.planner; }
@@ -78,14 +118,15 @@ void search_only(const SearchModel& search, const PlanOptions& options) {
   }
 }
 
-Run run_planner(const Scene& scene, const std::string& planner, std::uint64_t seed,
+Run run_planner(const Problem& problem, const std::string& planner, std::uint64_t seed,
                 const Options& options) {
+  const Scene& scene = problem.scene;
   const Model model = prepare(scene);
   PlanOptions wanted;
   wanted.planner = planner;
   wanted.seed = seed;
   if (!is_own(planner)) wanted.time_limit = 1e-3 * options.time_ms;
-  Run run{.problem = scene.name, .planner = planner, .seed = seed};
+  Run run{.kind = problem.kind, .problem = scene.name, .planner = planner, .seed = seed};
   const int batches = is_own(planner) ? 3 : 1;
   wanted.margin =
       options.plans == "nominal" ? Margin::none() : margin_of(model, usual_box());
@@ -98,7 +139,8 @@ Run run_planner(const Scene& scene, const std::string& planner, std::uint64_t se
 
 void write_csv(const Options& options, const std::vector<Run>& runs, std::FILE* out) {
   std::fputs(
-      "set,problem,planner,seed,status,certified,replays,search_s,total_s,stick_tests,"
+      "set,kind,problem,planner,seed,status,certified,replays,search_s,total_s,stick_"
+      "tests,"
       "propagations,pushes,placements,travel,cost,bound,published_cost,time_limit_s,"
       "compiler,cpu\n",
       out);
@@ -107,12 +149,13 @@ void write_csv(const Options& options, const std::vector<Run>& runs, std::FILE* 
   for (const Run& run : runs) {
     const Plan& plan = run.plan;
     std::fprintf(out,
-                 "%s,%s,%s,%llu,%s,%d,%d,%.4g,%.4g,%lld,%lld,%zu,%.0f,%.6g,%.6g,%.6g,"
+                 "%s,%s,%s,%s,%llu,%s,%d,%d,%.4g,%.4g,%lld,%lld,%zu,%.0f,%.6g,%.6g,%.6g,"
                  "%.3g,%.4g,%s,%s\n",
-                 options.set.c_str(), field(run.problem).c_str(), run.planner.c_str(),
-                 static_cast<unsigned long long>(run.seed), name(plan.status).data(),
-                 plan.usable() ? 1 : 0, run.replays ? 1 : 0, run.search_seconds,
-                 plan.seconds, static_cast<long long>(plan.stick_tests),
+                 options.set.c_str(), field(run.kind).c_str(), field(run.problem).c_str(),
+                 run.planner.c_str(), static_cast<unsigned long long>(run.seed),
+                 name(plan.status).data(), plan.usable() ? 1 : 0, run.replays ? 1 : 0,
+                 run.search_seconds, plan.seconds,
+                 static_cast<long long>(plan.stick_tests),
                  static_cast<long long>(plan.propagations), plan.pushes.size(),
                  plan.placements, plan.travel, plan.cost, plan.lower_bound,
                  plan.published_cost, is_own(run.planner) ? 0.0 : 1e-3 * options.time_ms,
@@ -134,17 +177,17 @@ Interval wilson(int hits, int runs) {
   return {centre - half, centre + half};
 }
 
-/// One line per planner; costs over its solved runs.
-void write_summary(const std::vector<std::string>& planners, const std::vector<Run>& runs,
-                   std::FILE* out) {
-  std::fprintf(out, "%-12s%6s%8s%16s%12s%10s%10s%11s%8s%8s%8s%11s\n", "planner", "runs",
-               "solved", "95 %", "search med", "p99 ms", "worst ms", "total med", "S med",
-               "J med", "gap med", "published");
-  for (const std::string& planner : planners) {
+/// One line per kind of problem and planner; costs and gaps over its solved runs.
+void write_summary(const std::set<std::pair<std::string, std::string>>& groups,
+                   const std::vector<Run>& runs, std::FILE* out) {
+  std::fprintf(out, "%-16s%-12s%6s%8s%16s%12s%10s%10s%11s%8s%8s%8s%10s%11s\n", "kind",
+               "planner", "runs", "solved", "95 %", "search med", "p99 ms", "worst ms",
+               "total med", "S med", "J med", "gap med", "gap<=10%", "published");
+  for (const auto& [kind, planner] : groups) {
     std::vector<double> search, total, placements, cost, gap, published;
-    int count = 0;
+    int count = 0, near_bound = 0;
     for (const Run& run : runs) {
-      if (run.planner != planner) continue;
+      if (run.planner != planner || run.kind != kind) continue;
       ++count;
       search.push_back(1e3 * run.search_seconds);
       total.push_back(1e3 * run.plan.seconds);
@@ -152,19 +195,20 @@ void write_summary(const std::vector<std::string>& planners, const std::vector<R
       placements.push_back(run.plan.placements);
       cost.push_back(run.plan.cost);
       gap.push_back(run.plan.gap());
+      if (gap.back() <= 0.1) ++near_bound;
       published.push_back(run.plan.published_cost);
     }
     if (count == 0) continue;
     const int solved = static_cast<int>(cost.size());
     const Interval interval = wilson(solved, count);
     std::fprintf(out,
-                 "%-12s%6d%8d%8.1f-%5.1f %%%9.4f ms%10.3f%10.3f%8.2f ms%8.0f%8.3f%7.1f "
-                 "%%%10.2f\n",
-                 planner.c_str(), count, solved, 100.0 * interval.low,
+                 "%-16s%-12s%6d%8d%8.1f-%5.1f %%%9.4f ms%10.3f%10.3f%8.2f ms%8.0f%8.3f"
+                 "%7.1f %%%8.1f %%%11.2f\n",
+                 kind.c_str(), planner.c_str(), count, solved, 100.0 * interval.low,
                  100.0 * interval.high, quantile(search, 0.5), quantile(search, 0.99),
                  quantile(search, 1.0), quantile(total, 0.5), quantile(placements, 0.5),
                  quantile(cost, 0.5), 100.0 * quantile(gap, 0.5),
-                 quantile(published, 0.5));
+                 100.0 * near_bound / count, quantile(published, 0.5));
   }
 }
 
@@ -182,8 +226,7 @@ bool read_options(int count, char** arguments, Options& options) {
                         options.seeds = 1;
                         options.time_ms = 200;
                       }) &&
-         (options.set == "published" || options.set == "constructed") &&
-         (options.plans == "robust" || options.plans == "nominal");
+         is_set(options.set) && (options.plans == "robust" || options.plans == "nominal");
 }
 
 std::vector<std::string> wanted_planners(const Options& options) {
@@ -200,27 +243,29 @@ int run(int count, char** arguments) {
   const std::vector<std::string> planners = wanted_planners(options);
   if (!readable || planners.empty()) {
     std::fputs(
-        "usage: bench_planner [--quick] [--set published|constructed] [--planner NAME]\n"
-        "                     [--plans robust|nominal]\n"
-        "                     [--problems N] [--seeds N] [--time-ms N] [-o FILE]\n",
+        "usage: bench_planner [--quick] [--set published|ranges|wide|constructed]\n"
+        "                     [--planner NAME] [--plans robust|nominal] [--problems N]\n"
+        "                     [--seeds N] [--time-ms N] [-o FILE]\n",
         stderr);
     return 2;
   }
   CsvFile csv(options.file);
   if (!csv.get()) return 2;
   std::vector<Run> runs;
-  for (const Scene& scene : scenes(options)) {
+  std::set<std::pair<std::string, std::string>> groups;
+  for (const Problem& problem : problems_of(options)) {
     for (const std::string& planner : planners) {
+      groups.emplace(problem.kind, planner);
       const int seeds = is_own(planner) ? 1 : options.seeds;
       for (int seed = 1; seed <= seeds; ++seed) {
         runs.push_back(
-            run_planner(scene, planner, static_cast<std::uint64_t>(seed), options));
+            run_planner(problem, planner, static_cast<std::uint64_t>(seed), options));
       }
     }
   }
   write_csv(options, runs, csv.get());
   const bool written = csv.close();
-  write_summary(planners, runs, stderr);
+  write_summary(groups, runs, stderr);
   return written ? 0 : 1;
 }
 

@@ -80,6 +80,12 @@ class FieldReader {
     if (found >= 0) into = words[static_cast<std::size_t>(found)].value;
   }
 
+  template <typename T, std::size_t N>
+  void word_if_not(T, const char* key, T& into, const std::array<Word<T>, N>& words,
+                   const char* doc) {
+    word(key, into, words, kOptional, doc);
+  }
+
   template <typename T, typename Visit>
   void group(const char* key, T& into, Need need, const char*, const Visit& visit) {
     if (const Value* value = take(key, need, "a map of keys and values")) {

@@ -112,6 +112,12 @@ class FieldSchema {
     add(key, schema, need, doc);
   }
 
+  template <typename T, std::size_t N>
+  void word_if_not(T, const char* key, const T& into, const std::array<Word<T>, N>& words,
+                   const char* doc) {
+    word(key, into, words, kOptional, doc);
+  }
+
   template <typename T, typename Visit>
   void group(const char* key, T& example, Need need, const char* doc,
              const Visit& visit) {

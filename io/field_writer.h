@@ -78,6 +78,12 @@ class FieldWriter {
     }
   }
 
+  template <typename T, std::size_t N>
+  void word_if_not(T initial, const char* key, const T& from,
+                   const std::array<Word<T>, N>& words, const char* doc) {
+    if (from != initial) word(key, from, words, kOptional, doc);
+  }
+
   template <typename T, typename Visit>
   void group(const char* key, T& from, Need, const char*, const Visit& visit) {
     map_.add(key, write(from, visit));

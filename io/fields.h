@@ -17,6 +17,7 @@
 ///                                        also optional<Vec2>
 ///   one_or_two(key, two numbers)         one number stands for both
 ///   word(key, value, words)              one of a closed set
+///   word_if_not(initial, key, value, words)  likewise, not written if it is the initial
 ///   names(key, strings)                  a list of words
 ///   points(key, vertices)                a list of pairs of numbers
 ///   group(key, value, visit)             a map; also optional<T>: absent if unset

@@ -110,7 +110,7 @@ void visit_object(Fields& fields, Object& object) {
                      "section [y, z] (axis x) or [x, z] (axis y).");
             f.number("thickness", prism.thickness, kLengths, kRequired,
                      "Along the axis.");
-            f.word("axis", prism.axis, kAxisWords, kOptional, "Of the prism in O.");
+            f.word_if_not(Axis::kZ, "axis", prism.axis, kAxisWords, "Of the prism in O.");
           }),
       alternative<SolidShape>("solid",
                               "Any solid body held at two flat faces, as made from a "

@@ -81,11 +81,11 @@ SectionForces in_si(SectionForces forces, const Units& units) {
 
 ContactMode mode_of(const Turning& turning, int contact, const Freedoms& v,
                     double sheet_rate) {
-  const PointRows* row = nullptr;
-  for (int p = turning.count - 1; p >= 0; --p)
-    if (turning.point[p].contact == contact) row = &turning.point[p];
-  if (dot(row->normal, v) > kSameMotion) return ContactMode::kOpen;
-  const double slip = dot(row->tangential, v) - (contact == kSheet ? sheet_rate : 0.0);
+  int first = 0;
+  while (first + 1 < turning.count && turning.point[first].contact != contact) ++first;
+  const PointRows& point = turning.point[first];
+  if (dot(point.normal, v) > kSameMotion) return ContactMode::kOpen;
+  const double slip = dot(point.tangential, v) - (contact == kSheet ? sheet_rate : 0.0);
   if (std::abs(slip) <= kSameMotion) return ContactMode::kStick;
   return slip > 0.0 ? ContactMode::kSlipPlus : ContactMode::kSlipMinus;
 }

@@ -112,7 +112,11 @@ bool make_leg(const Steering& steering, int contact, const Stop& from, const Sto
     work.obstacles.add(Obstacle::kGravity);
     return false;
   }
-  if (steering.measured) {  // slow: the loops around it look at their limits too rarely
+  if (steering.envelope) {
+    ++work.stick_tests;
+    leg.kappas =
+        steering.envelope->kappas(search.contacts[contact].stick, from.p_OF, to.p_OF);
+  } else if (steering.real_pads) {  // slow: loops look at their limits too rarely
     if (work.interrupted()) return false;
     if (work.meter) work.meter->tick(work.stick_tests + work.propagations);
     leg.kappas = measured_kappas(search, contact, from.p_OF, to.p_OF, work);
@@ -225,6 +229,12 @@ bool make_chain_stick(const SearchModel& search, double theta_start, double dthe
   if (sticks()) return true;
   centre_chain(search, dtheta, 1.0, chain);
   return sticks();
+}
+
+bool move_passes(const SearchModel& search, const Move& move, Work& work) noexcept {
+  return segment_on_object(*search.model, move.from.p_OF, move.to.p_OF) &&
+         exact_slack(search, move, work) >= -kStickTolerance &&
+         pads_hold_gravity(search, move);
 }
 
 bool chain_passes(const SearchModel& search, const Chain& chain, double theta_start,

@@ -9,6 +9,7 @@
 
 #include <array>
 
+#include "mechanics/pad_envelope.h"
 #include "planner/steering.h"
 
 namespace prehensile {
@@ -23,8 +24,9 @@ struct Stop {
 
 /// How legs are proposed.
 struct Steering {
-  SearchModel search;     ///< contacts, and the margin that the proposals keep
-  bool measured = false;  ///< rotations from the real pads instead of the closed form
+  SearchModel search;      ///< contacts, and the margin that the proposals keep
+  bool real_pads = false;  ///< rotations from the pads themselves, not the closed form
+  const PadEnvelope* envelope = nullptr;  ///< of real pads on flat faces
 };
 
 /// One straight push of a chain.
@@ -79,6 +81,10 @@ double turn_of(const SearchModel& search, const Chain& chain, int leg);
 /// Least slack of a move with the real pad over the margin box, at as many points as its
 /// pad asks for. No heap.
 double exact_slack(const SearchModel& search, const Move& move, Work& work) noexcept;
+
+/// Whether a move stays on the object, sticks with the real pad over the margin box, and
+/// the pads alone hold gravity along it; the closed form is not asked. No heap.
+bool move_passes(const SearchModel& search, const Move& move, Work& work) noexcept;
 
 /// Whether every move of a solved chain sticks with the real pad over the margin box and
 /// the pads alone hold gravity along it; what costs most is asked last. No heap.

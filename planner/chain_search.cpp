@@ -1,15 +1,12 @@
 #include "planner/chain_search.h"
 
 #include <array>
+#include <limits>
 
 #include "planner/lattice.h"
 
 namespace prehensile {
 namespace {
-
-/// A plan this close to the bound for two placements is not worth a search for better
-/// ones.
-constexpr double kGoodEnough = 1.05;
 
 /// Margins of the closed form, in units of the plan's, for pads that are not isotropic.
 constexpr std::array<double, 3> kSteeringMargins = {3.0, 1.75, 1.0};
@@ -18,9 +15,10 @@ constexpr std::array<double, 3> kSteeringMargins = {3.0, 1.75, 1.0};
 struct Fineness {
   int nodes, local_nodes_per_side;
 };
+constexpr double kNoPlan = std::numeric_limits<double>::infinity();
 constexpr Fineness kCoarse = {200, 12};
 constexpr Fineness kFine = {800, 20};
-constexpr Fineness kSparse = {50, 7};  // for measured rotations, which cost most
+constexpr Fineness kSparse = {50, 7};  // for rotations of the real pads, which cost most
 
 class ChainSearch {
  public:
@@ -41,22 +39,45 @@ class ChainSearch {
     }
   }
 
-  std::optional<FoundChain> run() {
+  std::optional<FoundChain> run_crossings() {
     for (const Steering& steering : steering_) {
       try_crossings(steering);
       if (good_enough() || limits_.reached()) return found_;
     }
+    return found_;
+  }
+
+  std::optional<FoundChain> run() {
+    run_crossings();
+    if (good_enough() || limits_.reached()) return found_;
     for (const Steering& steering : steering_) {
       try_nodes(steering, kCoarse);
       if (good_enough() || limits_.reached()) return found_;
     }
-    if (is_enough()) return found_;
-    if (!search_.exact_everywhere) try_measured();
+    return found_;
+  }
+
+  std::optional<FoundChain> run_real_pads(const PadEnvelope* envelope) {
+    if (limits_.reached()) return found_;
+    const Steering steering{search_, true, envelope};
+    try_nodes(steering, kSparse);
+    if (!envelope && !found_ && !limits_.reached()) {
+      try_labels(steering, kSparse, kNoPlan);
+    }
+    return found_;
+  }
+
+  std::optional<FoundChain> run_labels(const PadEnvelope* envelope, double to_beat) {
     for (const Steering& steering : steering_) {
       if (is_enough() || limits_.reached()) return found_;
-      try_labels(steering, kCoarse);
+      try_labels(steering, kCoarse, to_beat);
     }
-    if (!is_enough() && !limits_.reached()) try_labels(steering_.back(), kFine);
+    if (envelope && !is_enough() && !limits_.reached()) {
+      try_labels({search_, true, envelope}, kSparse, to_beat);
+    }
+    if (limits_.improves() && !is_enough() && !limits_.reached()) {
+      try_labels(steering_.back(), kFine, to_beat);
+    }
     return found_;
   }
 
@@ -118,15 +139,10 @@ class ChainSearch {
     keep_first_that_sticks(steering, points);
   }
 
-  void try_measured() {
-    const Steering steering{search_, true};
-    try_nodes(steering, kSparse);
-    if (!is_enough() && !limits_.reached()) try_labels(steering, kSparse);
-  }
-
-  void try_labels(const Steering& steering, const Fineness& fineness) {
-    keep(search_labels(steering, search_, nodes(fineness), start_, goals_, limits_, work_,
-                       found_));
+  void try_labels(const Steering& steering, const Fineness& fineness, double to_beat) {
+    keep(search_labels(steering, search_, nodes(fineness), start_, goals_,
+                       std::min(to_beat, found_ ? found_->chain.cost : kNoPlan), limits_,
+                       work_));
   }
 
   const SearchModel& search_;
@@ -140,6 +156,33 @@ class ChainSearch {
 };
 
 }  // namespace
+
+std::optional<FoundChain> search_crossings(const SearchModel& search,
+                                           const FlatState& start,
+                                           const GoalPlaces& goals, const Limits& limits,
+                                           Work& work) {
+  if (goals.count == 0) return std::nullopt;
+  return ChainSearch(search, start, goals, 0.0, limits, work).run_crossings();
+}
+
+std::optional<FoundChain> search_long_chains(const SearchModel& search,
+                                             const FlatState& start,
+                                             const GoalPlaces& goals,
+                                             const PadEnvelope* envelope, double to_beat,
+                                             const Limits& limits, Work& work) {
+  if (goals.count == 0) return std::nullopt;
+  return ChainSearch(search, start, goals, 0.0, limits, work)
+      .run_labels(envelope, to_beat);
+}
+
+std::optional<FoundChain> search_chains_of_real_pads(const SearchModel& search,
+                                                     const FlatState& start,
+                                                     const GoalPlaces& goals,
+                                                     const PadEnvelope* envelope,
+                                                     const Limits& limits, Work& work) {
+  if (goals.count == 0) return std::nullopt;
+  return ChainSearch(search, start, goals, 0.0, limits, work).run_real_pads(envelope);
+}
 
 std::optional<FoundChain> search_chains(const SearchModel& search, const FlatState& start,
                                         const GoalPlaces& goals, double bound,

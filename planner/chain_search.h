@@ -1,4 +1,4 @@
-/// Plans of two and more pushes: stages of growing effort over chains of straight pushes.
+/// Plans of two and more straight pushes, in stages of growing effort.
 /// Internal to the own planner.
 #pragma once
 
@@ -7,6 +7,9 @@
 #include "planner/label_search.h"
 
 namespace prehensile {
+
+/// A plan this close to its lower bound is not worth a search for better ones.
+inline constexpr double kGoodEnough = 1.05;
 
 /// The first chain found whose pushes stick with the real pad over the margin of
 /// `search`, near the cheapest of its kind; none if every stage ends without one or a
@@ -20,5 +23,26 @@ namespace prehensile {
 std::optional<FoundChain> search_chains(const SearchModel& search, const FlatState& start,
                                         const GoalPlaces& goals, double bound,
                                         const Limits& limits, Work& work);
+
+/// Two pushes through a lattice node with rotations that the real pads allow; without an
+/// envelope (cans) also three and more.
+std::optional<FoundChain> search_chains_of_real_pads(const SearchModel& search,
+                                                     const FlatState& start,
+                                                     const GoalPlaces& goals,
+                                                     const PadEnvelope* envelope,
+                                                     const Limits& limits, Work& work);
+
+/// Three and more pushes over a lattice, cheaper than `to_beat` (infinity: any).
+std::optional<FoundChain> search_long_chains(const SearchModel& search,
+                                             const FlatState& start,
+                                             const GoalPlaces& goals,
+                                             const PadEnvelope* envelope, double to_beat,
+                                             const Limits& limits, Work& work);
+
+/// The first of these stages alone: two pushes through a crossing of cone lines.
+std::optional<FoundChain> search_crossings(const SearchModel& search,
+                                           const FlatState& start,
+                                           const GoalPlaces& goals, const Limits& limits,
+                                           Work& work);
 
 }  // namespace prehensile

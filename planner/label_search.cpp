@@ -10,7 +10,8 @@ namespace {
 constexpr double kBucket = 0.3;       // [rad]
 constexpr double kMostRotation = 15;  // [rad] to either side that buckets tell apart
 constexpr int kBuckets = 100;
-constexpr std::size_t kMostLabels = 200'000;
+constexpr std::size_t kMostLabels = 200'000;           // without a plan
+constexpr std::size_t kMostLabelsBeyondPlan = 10'000;  // in search of a better one
 constexpr int kMostChecks = 2000;  // of whole chains with the real pad
 
 /// One interval of one leg between two nodes.
@@ -38,17 +39,16 @@ class LabelSearch {
  public:
   LabelSearch(const Steering& steering, const SearchModel& search,
               const std::vector<Vec2>& nodes, const FlatState& start,
-              const GoalPlaces& goals, const Limits& limits, Work& work,
-              const std::optional<FoundChain>& known)
+              const GoalPlaces& goals, double to_beat, const Limits& limits, Work& work)
       : steering_(steering),
         search_(search),
         nodes_(nodes),
         start_(start),
         goals_(goals),
+        to_beat_(to_beat),
         limits_(limits),
         work_(work),
-        contacts_(static_cast<int>(search.contacts.size())),
-        best_(known) {
+        contacts_(static_cast<int>(search.contacts.size())) {
     nodes_.push_back(start.p_OF);
     rows_.resize(nodes_.size() * contacts_);
     row_known_.resize(nodes_.size() * contacts_, 0);
@@ -58,11 +58,13 @@ class LabelSearch {
 
   std::optional<FoundChain> run() {
     push({0.0, 0.0, 0.0, static_cast<int>(nodes_.size()) - 1, -1, -1, 0});
-    while (!queue_.empty() && !limits_.reached() && labels_.size() < kMostLabels &&
+    const std::size_t most =
+        std::isinf(to_beat_) || limits_.improves() ? kMostLabels : kMostLabelsBeyondPlan;
+    while (!queue_.empty() && !limits_.reached() && labels_.size() < most &&
            checks_ < kMostChecks) {
       const QueueEntry next = queue_.top();
       queue_.pop();
-      if (best_ && next.estimate >= best_->chain.cost) break;
+      if (next.estimate >= to_beat_) break;
       if (!alive(next.label)) continue;
       try_goals(next.label);
       if (labels_[next.label].depth < Chain::kMaxLegs - 1) expand(next.label);
@@ -161,7 +163,7 @@ class LabelSearch {
       const Label label = labels_[index];  // a copy: labels_ grows
       for (const Edge& edge : edges(label.node, contact)) {
         const double cost = cost_after(label, contact, edge.travel);
-        if (best_ && cost + rest_[edge.to] >= best_->chain.cost) continue;
+        if (cost + rest_[edge.to] >= to_beat_) continue;
         offer({label.lo + edge.lo, label.hi + edge.hi, cost, edge.to, contact, index,
                label.depth + 1});
       }
@@ -190,7 +192,7 @@ class LabelSearch {
       for (const Edge& end : ends) {
         if (wanted < label.lo + end.lo || wanted > label.hi + end.hi) continue;
         const double cost = cost_after(label, leg.contact, end.travel);
-        if (!best_ || cost < best_->chain.cost) try_chain(index, leg, place, angle);
+        if (cost < to_beat_) try_chain(index, leg, place, angle);
       }
     }
   }
@@ -208,13 +210,14 @@ class LabelSearch {
       work_.obstacles.add(Obstacle::kRotation);
       return;
     }
-    if (best_ && scratch_.cost >= best_->chain.cost) return;
+    if (scratch_.cost >= to_beat_) return;
     ++checks_;
     if (!make_chain_stick(search_, start_.theta, dtheta, scratch_, work_)) {
       return;
     }
-    if (best_ && scratch_.cost >= best_->chain.cost) return;
+    if (scratch_.cost >= to_beat_) return;
     best_ = {scratch_, place, angle};
+    to_beat_ = scratch_.cost;
     if (work_.meter) work_.meter->found(scratch_.cost);
   }
 
@@ -223,6 +226,7 @@ class LabelSearch {
   std::vector<Vec2> nodes_;
   const FlatState& start_;
   const GoalPlaces& goals_;
+  double to_beat_;
   const Limits& limits_;
   Work& work_;
   int contacts_;
@@ -243,9 +247,9 @@ std::optional<FoundChain> search_labels(const Steering& steering,
                                         const SearchModel& search,
                                         const std::vector<Vec2>& nodes,
                                         const FlatState& start, const GoalPlaces& goals,
-                                        const Limits& limits, Work& work,
-                                        const std::optional<FoundChain>& known) {
-  return LabelSearch(steering, search, nodes, start, goals, limits, work, known).run();
+                                        double to_beat, const Limits& limits,
+                                        Work& work) {
+  return LabelSearch(steering, search, nodes, start, goals, to_beat, limits, work).run();
 }
 
 }  // namespace prehensile

@@ -21,14 +21,14 @@ struct FoundChain {
   int place = -1, angle = -1;
 };
 
-/// The cheapest chain found that `steering` proposes and whose pushes stick with the real
-/// pad over the margin of `search`, if it is cheaper than `known`, else that one; none if
-/// the search runs dry or a limit is reached before. Both are of the same model.
+/// The cheapest chain found that `steering` proposes, whose pushes stick with the real
+/// pad over the margin of `search`, and which is cheaper than `to_beat` (infinity: there
+/// is no plan yet, and the search goes on for longer); none if the search runs dry or a
+/// limit is reached before. Both are of the same model.
 std::optional<FoundChain> search_labels(const Steering& steering,
                                         const SearchModel& search,
                                         const std::vector<Vec2>& nodes,
                                         const FlatState& start, const GoalPlaces& goals,
-                                        const Limits& limits, Work& work,
-                                        const std::optional<FoundChain>& known = {});
+                                        double to_beat, const Limits& limits, Work& work);
 
 }  // namespace prehensile

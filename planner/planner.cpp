@@ -110,6 +110,10 @@ Plan attempt(const Model& model, const PlanOptions& options, const Clearance& cl
   return plan;
 }
 
+/// [m] of the finger axis: what a nominal search keeps clear of slipping by where a plan
+/// on the very border fails its check.
+constexpr double kClearOfBorder = 0.2e-3;
+
 /// A plan that fails its exact check is searched again, first farther from slipping by
 /// what its detours carry the finger axis off, then with double the margin.
 Plan search_and_check(const Model& model, const PlanOptions& options,
@@ -129,7 +133,11 @@ Plan search_and_check(const Model& model, const PlanOptions& options,
   if (failed_check() && found.drift > 0.0) {
     again({margin, 1.5 * found.drift}, "; with more room for drift: ");
   }
-  if (failed_check()) again({margin.scaled(2.0)}, "; with double the margin: ");
+  if (failed_check() && margin.is_none()) {
+    again({margin, kClearOfBorder}, "; a little clear of slipping: ");
+  } else if (failed_check()) {
+    again({margin.scaled(2.0)}, "; with double the margin: ");
+  }
   return plan;
 }
 

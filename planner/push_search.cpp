@@ -6,11 +6,15 @@
 
 #include "planner/bounds.h"
 #include "planner/chain_search.h"
+#include "planner/fan_search.h"
 #include "planner/holding.h"
 #include "planner/roll_step.h"
+#include "planner/shorten.h"
 
 namespace prehensile {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double flat_distance(const SearchModel& search, const FlatState& a, const FlatState& b) {
   return std::hypot((b.p_OF - a.p_OF).norm(), search.model->c * (b.theta - a.theta));
@@ -44,6 +48,38 @@ void append_chain(const SearchModel& search, const FlatState& start, const Chain
   }
 }
 
+/// The stages that know the pads themselves: they cost more, and find what the ellipsoid
+/// hides. `best`: the plan so far, to be improved.
+bool plan_with_real_pads(const SearchModel& search, const FlatState& from,
+                         const GoalPlaces& goals, std::optional<FoundChain> best,
+                         const Limits& limits, Work& work, Plan& plan) {
+  const bool flat = !can_roll(search.model->scene.object);
+  std::optional<PadEnvelope> envelope;
+  if (flat) envelope.emplace(*search.model, search.margin);
+  const PadEnvelope* pads = envelope ? &*envelope : nullptr;
+  if (!best) {
+    best = search_chains_of_real_pads(search, from, goals, pads, limits, work);
+  }
+  std::optional<std::vector<Move>> moves;
+  if (!best && pads) moves = search_fan(search, *pads, from, goals, limits, work);
+  const double to_beat = best    ? best->chain.cost
+                         : moves ? cost_of(search, *moves)
+                                 : kInfinity;
+  if (moves && work.meter) work.meter->found(to_beat);
+  if (!best || limits.improves()) {
+    const auto found =
+        search_long_chains(search, from, goals, pads, to_beat, limits, work);
+    if (found) best = found;
+  }
+  if (best) {
+    append_chain(search, from, best->chain, plan);
+    return true;
+  }
+  if (!moves) return false;
+  for (const Move& move : *moves) append_move(search, move, plan);
+  return true;
+}
+
 /// Fills the pushes in the pad plane; false if none were found.
 bool plan_in_plane(const SearchModel& search, const Grasp& start, const Goal& goal,
                    const Limits& limits, Work& work, Plan& plan) {
@@ -56,9 +92,11 @@ bool plan_in_plane(const SearchModel& search, const Grasp& start, const Goal& go
   const double bound = lower_bound(*search.model, start, goal);
   if (work.meter) work.meter->bound(bound);
   const auto found = search_chains(search, from, goals, bound, limits, work);
-  if (!found) return false;
-  append_chain(search, from, found->chain, plan);
-  return true;
+  if (found && !(limits.improves() && found->chain.cost > kGoodEnough * bound)) {
+    append_chain(search, from, found->chain, plan);
+    return true;
+  }
+  return plan_with_real_pads(search, from, goals, found, limits, work, plan);
 }
 
 void say_undecided(const Limits& limits, Plan& plan) {
@@ -78,7 +116,7 @@ void say_undecided(const Limits& limits, Plan& plan) {
 std::optional<Move> direct_push(const SearchModel& search, const FlatState& start,
                                 const GoalPlaces& goals, Work& work) noexcept {
   std::optional<Move> best;
-  double best_distance = std::numeric_limits<double>::infinity();
+  double best_distance = kInfinity;
   for (int i = 0; i < goals.count; ++i) {
     const GoalPlace& place = goals.places[i];
     bool on_object = false;

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "optimisation/nonlinear_program.h"
-#include "primitives/place.h"
+#include "primitives/place_wrench.h"
 
 namespace prehensile {
 namespace {
@@ -30,21 +30,21 @@ WantedMotion motion_along(const Direction& d, const WantedMotion& like, double c
 }
 
 /// Some contact can exert what the motion asks for, and advances.
-bool is_possible(const Model& model, const WantedMotion& motion,
+bool is_possible(const GripEnds& ends, const WantedMotion& motion,
                  const PlaceOptions& options) {
-  const std::vector<ContactVerdict> verdicts = verdicts_of(model, motion, options);
+  const std::vector<ContactVerdict> verdicts = verdicts_of(ends, motion, options);
   return std::any_of(verdicts.begin(), verdicts.end(),
                      [](const ContactVerdict& verdict) { return verdict.possible; });
 }
 
 /// On the arc from `from` (possible) towards `to` (not), the last possible direction.
-Direction border(const Model& model, const WantedMotion& wanted,
+Direction border(const GripEnds& ends, const WantedMotion& wanted,
                  const PlaceOptions& options, double c, Direction from,
                  const Direction& to) {
   Direction outside = to;
   for (int i = 0; i < 40; ++i) {
     const Direction middle = (from + outside).normalized();
-    const bool inside = is_possible(model, motion_along(middle, wanted, c), options);
+    const bool inside = is_possible(ends, motion_along(middle, wanted, c), options);
     (inside ? from : outside) = middle;
   }
   return from;
@@ -55,6 +55,7 @@ Direction border(const Model& model, const WantedMotion& wanted,
 NearestMotion nearest_motion(const Model& model, const WantedMotion& wanted,
                              const PlaceOptions& options) {
   NearestMotion out;
+  const GripEnds ends(model, options);
   const double c = std::max(model.c, 1e-6);
   const Direction goal = direction_of(wanted, c);
   const Direction side = goal.unitOrthogonal();
@@ -71,7 +72,7 @@ NearestMotion nearest_motion(const Model& model, const WantedMotion& wanted,
     const double angle = std::numbers::pi * share * share;
     for (int k = 0; k < kAround; ++k) {
       const double around = 2.0 * std::numbers::pi * k / kAround;
-      if (is_possible(model, motion_along(at(angle, around), wanted, c), options)) {
+      if (is_possible(ends, motion_along(at(angle, around), wanted, c), options)) {
         starts.emplace_back(angle, around);
       }
     }
@@ -79,7 +80,7 @@ NearestMotion nearest_motion(const Model& model, const WantedMotion& wanted,
   }
   Direction best = -goal;
   const auto improve = [&](double angle, double around) {
-    const Direction d = border(model, wanted, options, c, at(angle, around), goal);
+    const Direction d = border(ends, wanted, options, c, at(angle, around), goal);
     if (d.dot(goal) > best.dot(goal)) best = d;
     return std::acos(std::clamp(d.dot(goal), -1.0, 1.0));
   };
@@ -94,8 +95,7 @@ NearestMotion nearest_motion(const Model& model, const WantedMotion& wanted,
   program.upper = {0.3};
   program.objective = [&](std::span<const double> x, std::span<double>) {
     const double reach = std::min(angle0 + 0.05, std::numbers::pi);
-    if (!is_possible(model, motion_along(at(reach, around0 + x[0]), wanted, c),
-                     options)) {
+    if (!is_possible(ends, motion_along(at(reach, around0 + x[0]), wanted, c), options)) {
       return 10.0;
     }
     return improve(reach, around0 + x[0]);

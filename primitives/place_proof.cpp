@@ -75,20 +75,29 @@ NeededWrench needed_wrench(const Model& model, const WantedMotion& wanted,
   return out;
 }
 
+GripEnds::GripEnds(const Model& model, const PlaceOptions& options)
+    : limits(grip_limits(model, options)),
+      loosest(with_grip(model, limits.low)),
+      tightest(with_grip(model, limits.high)) {}
+
 std::vector<ContactVerdict> verdicts_of(const Model& model, const WantedMotion& wanted,
                                         const PlaceOptions& options) {
+  return verdicts_of(GripEnds(model, options), wanted, options);
+}
+
+std::vector<ContactVerdict> verdicts_of(const GripEnds& ends, const WantedMotion& wanted,
+                                        const PlaceOptions& options) {
   std::vector<ContactVerdict> out;
-  const GripLimits grip = grip_limits(model, options);
-  const Model loosest = with_grip(model, grip.low);
-  const Model tightest = with_grip(model, grip.high);
+  const GripLimits& grip = ends.limits;
+  const Model& model = ends.loosest;  // but for forces all models of the scene are alike
   for (int i = 0; i < static_cast<int>(model.contacts.size()); ++i) {
     const bool listed = options.contacts.empty() ||
                         std::find(options.contacts.begin(), options.contacts.end(), i) !=
                             options.contacts.end();
     if (!listed) continue;
     const PushContact& contact = model.contacts[i];
-    const NeededWrench low = needed_wrench(loosest, wanted, contact);
-    const NeededWrench high = needed_wrench(tightest, wanted, contact);
+    const NeededWrench low = needed_wrench(ends.loosest, wanted, contact);
+    const NeededWrench high = needed_wrench(ends.tightest, wanted, contact);
     const double length = std::max(model.c, 1e-9);
     const std::array<PlanarTwist, 4> limits = limits_of(contact, wanted.X_HO, length);
     std::array<GripRange, 4> ranges;

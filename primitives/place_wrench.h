@@ -27,4 +27,14 @@ GripLimits grip_limits(const Model& model, const PlaceOptions& options);
 /// function.
 Model with_grip(const Model& model, double grip_force);
 
+/// The scene at both ends of the allowed grip forces: to be made once where many motions
+/// are asked about, because the points of a pad may take milliseconds.
+struct GripEnds {
+  GripEnds(const Model& model, const PlaceOptions& options);
+  GripLimits limits;
+  Model loosest, tightest;
+};
+std::vector<ContactVerdict> verdicts_of(const GripEnds& ends, const WantedMotion& wanted,
+                                        const PlaceOptions& options);
+
 }  // namespace prehensile

@@ -3,6 +3,9 @@
 #include <array>
 #include <numbers>
 
+#include "mechanics/sticking.h"
+#include "problems/random_stream.h"
+
 namespace prehensile {
 namespace {
 
@@ -76,7 +79,8 @@ PlanarPose pose_of(const FingerInObject& finger) {
   return pose_from_finger({finger.x, finger.y}, -finger.angle);
 }
 
-Scene among_walls(const Shape& shape, const std::string& name, int index) {
+Scene among_walls(const Shape& shape, const std::string& name, std::uint64_t index,
+                  const Pair& pair) {
   Scene scene;
   scene.name = name + " " + std::to_string(index + 1);
   scene.origin = "ranges of Perugini et al. (RA-L 2025)";
@@ -86,7 +90,6 @@ Scene among_walls(const Shape& shape, const std::string& name, int index) {
   scene.gripper.friction = {0.9, 0.9};
   scene.gripper.grip_force = 25.0;
   scene.overhang = Overhang::kIgnore;
-  const Pair& pair = kPairs.at(index);
   scene.start.X_HO = pose_of(pair.start);
   const PlanarPose X_HO = pose_of(pair.goal);
   scene.goal = Goal{.x = X_HO.x,
@@ -109,17 +112,64 @@ Scene among_walls(const Shape& shape, const std::string& name, int index) {
   return scene;
 }
 
+Shape square() { return BoxShape{{0.1, 0.1, 0.03}}; }
+
+Shape tee() {
+  return PrismShape{{{-0.05, -0.05},
+                     {-0.02, -0.05},
+                     {-0.02, -0.015},
+                     {0.05, -0.015},
+                     {0.05, 0.015},
+                     {-0.02, 0.015},
+                     {-0.02, 0.05},
+                     {-0.05, 0.05}},
+                    0.03};
+}
+
+/// A place on the object where the pads hold gravity, at any angle.
+FingerInObject anywhere(const Model& model, RandomStream& random) {
+  constexpr double kHalf = 0.05;
+  for (;;) {
+    const FingerInObject finger{random.in(-kHalf, kHalf), random.in(-kHalf, kHalf),
+                                random.in(-std::numbers::pi, std::numbers::pi)};
+    const Vec2 p_OF(finger.x, finger.y);
+    if (depth_inside(model.outline, p_OF) <= 0.0) continue;
+    const Vec2& g_O = model.contacts.front().g_O;
+    if (holding_slack(model, p_OF, g_O, Margin{}) > 0.0) return finger;
+  }
+}
+
+Pair published_pair(RandomStream& random) {
+  constexpr double kAngle = 0.2;
+  return {
+      {random.in(0.0, 0.03), random.in(-0.005, 0.005), random.in(-kAngle, kAngle)},
+      {random.in(-0.045, -0.025), random.in(-0.04, 0.02), random.in(-kAngle, kAngle)}};
+}
+
 }  // namespace
 
 Scene published_square(int index) {
-  return among_walls(BoxShape{{0.1, 0.1, 0.03}}, "published square", index);
+  return among_walls(square(), "published square", index, kPairs.at(index));
 }
 
 Scene published_tee(int index) {
-  const std::vector<Vec2> outline = {{-0.05, -0.05}, {-0.02, -0.05}, {-0.02, -0.015},
-                                     {0.05, -0.015}, {0.05, 0.015},  {-0.02, 0.015},
-                                     {-0.02, 0.05},  {-0.05, 0.05}};
-  return among_walls(PrismShape{outline, 0.03}, "published T", index);
+  return among_walls(tee(), "published T", index, kPairs.at(index));
+}
+
+Scene random_among_walls(bool is_square, RegraspRange range, bool gravity,
+                         std::uint64_t seed, std::uint64_t index) {
+  RandomStream random(RandomStream(seed).bits() ^ (1000003 * index));
+  const Shape shape = is_square ? square() : tee();
+  const std::string name = is_square ? "square" : "T";
+  const auto scene_of = [&](const Pair& pair) {
+    Scene scene = among_walls(shape, name, index, pair);
+    if (!gravity) scene.g_W = Vec2::Zero();
+    return scene;
+  };
+  if (range == RegraspRange::kPublished) return scene_of(published_pair(random));
+  const Model model = prepare(scene_of(kPairs[0]));
+  const FingerInObject start = anywhere(model, random);
+  return scene_of({start, anywhere(model, random)});
 }
 
 }  // namespace prehensile

@@ -4,6 +4,8 @@
 /// ranges.
 #pragma once
 
+#include <cstdint>
+
 #include "scene/scene.h"
 
 namespace prehensile {
@@ -18,5 +20,17 @@ inline constexpr int kPublishedRegrasps = 50;
 /// mm; overhanging pads count whole; goal test: distance + 0.01 m/rad x angle <= 1 mm.
 Scene published_square(int index);
 Scene published_tee(int index);
+
+/// Where problems beyond the 50 pairs are drawn from.
+enum class RegraspRange {
+  kPublished,  ///< the ranges of the comparison: goals left of the starts, +-0.2 rad
+  kWide,       ///< start and goal anywhere on the object, at any angle
+};
+
+/// A random problem with the same object ("square" or else the T), walls, hand and goal
+/// test; gravity along -y of O, or none. Start and goal are places where the pads alone
+/// hold gravity over the default margin. Deterministic: (range, seed, index) names it.
+Scene random_among_walls(bool square, RegraspRange range, bool gravity,
+                         std::uint64_t seed, std::uint64_t index);
 
 }  // namespace prehensile

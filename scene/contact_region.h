@@ -45,6 +45,9 @@ class ContactRegion {
   /// Points at this pose; no heap, no exceptions.
   ContactPoints at(const PlanarPose& X_HO) const noexcept;
 
+  /// The points of the unclipped pad on a flat face.
+  const ContactPoints& whole() const { return whole_; }
+
   /// The same points in the same places of H at every pose (flat face, `ignore`).
   bool is_fixed_in_hand() const { return fixed_in_hand_; }
 

@@ -346,25 +346,22 @@ void check_calibration(Checker& checker, const CalibrationRecord& record) {
   checker.in_range(field + "place", record.place, 0.0, 1.0, "m");
   checker.in_range(field + "scatter", record.scatter, 0.0, 1.0, "m");
   checker.in_range(field + "scatter_angle", record.scatter_angle, 0.0, 4.0, "rad");
-  for (const auto* factors : {&record.factors_50, &record.factors_90}) {
-    if (!*factors) continue;
-    for (const double factor : **factors) {
-      checker.in_range(
-          field + (factors == &record.factors_50 ? "factors_50" : "factors_90"), factor,
-          0.0, 1e3, "");
-    }
+  for (const double factor : record.factors_50.value_or(Vec3::Zero())) {
+    checker.in_range(field + "factors_50", factor, 0.0, 1e3, "");
+  }
+  for (const double factor : record.factors_90.value_or(Vec3::Zero())) {
+    checker.in_range(field + "factors_90", factor, 0.0, 1e3, "");
   }
 }
 
 void check_start_is_held(Checker& checker, const Scene& scene) {
   const std::vector<Vec2> face = pad_face_of(scene.object.shape);
   const Vec2 p_OF = finger_in_object(scene.start.X_HO);
-  const bool on_face =
-      contains(face, p_OF) && ContactRegion(scene, 16).at(scene.start.X_HO).count > 0;
-  if (!on_face) {
-    checker.fault("start", "the finger axis is at " + text(p_OF) +
-                               " in the object: expected the pads on the object");
+  if (contains(face, p_OF) && ContactRegion(scene, 16).at(scene.start.X_HO).count > 0) {
+    return;
   }
+  checker.fault("start", "the finger axis is at " + text(p_OF) +
+                             " in the object: expected the pads on the object");
 }
 
 }  // namespace

@@ -49,6 +49,21 @@ void expect_same(const Plan& a, const Plan& b) {
   EXPECT_EQ(a.proof.text, b.proof.text);
   EXPECT_EQ(a.margin.place, b.margin.place);
   EXPECT_EQ(a.margin.friction, b.margin.friction);
+  EXPECT_EQ(a.margin.grasp, b.margin.grasp);
+  EXPECT_EQ(a.margin.tilt, b.margin.tilt);
+  EXPECT_EQ(a.promise, b.promise);
+  ASSERT_EQ(a.explanation.has_value(), b.explanation.has_value());
+  if (a.explanation) {
+    EXPECT_EQ(a.explanation->text, b.explanation->text);
+    EXPECT_EQ(a.obstacles.count, b.obstacles.count);
+    ASSERT_EQ(a.explanation->changes.size(), b.explanation->changes.size());
+    for (std::size_t i = 0; i < a.explanation->changes.size(); ++i) {
+      EXPECT_EQ(a.explanation->changes[i].what, b.explanation->changes[i].what);
+      EXPECT_EQ(a.explanation->changes[i].option, b.explanation->changes[i].option);
+      EXPECT_EQ(a.explanation->changes[i].pusher, b.explanation->changes[i].pusher);
+      expect_same(a.explanation->changes[i].cost, b.explanation->changes[i].cost);
+    }
+  }
   expect_same(a.cost, b.cost);
   expect_same(a.travel, b.travel);
   expect_same(a.lower_bound, b.lower_bound);
@@ -72,6 +87,15 @@ TEST(PlanFile, RandomPlansReturnUnchanged) {
     const SceneFile scene = parse_scene(scene_to_yaml(random_scene(random)), "random");
     const Model model = prepare(scene.scene);
     Plan plan = random_plan(random, model);
+    if (random.chance(0.5)) plan.margin.grasp = random.in(0.0, 1e-2);
+    if (random.chance(0.5)) plan.margin.tilt = random.in(0.0, 0.1);
+    plan.promise = static_cast<Promise>(random.below(4));
+    if (random.chance(0.3)) {
+      plan.explanation = {"one \"paragraph\"",
+                          {{"more grip", "--set gripper.grip_force=9", "", 1.5},
+                           {"a wall", "", "{name: wall}", 2.5}}};
+      for (std::int64_t& count : plan.obstacles.count) count = random.below(5);
+    }
     plan.seed = random.bits();  // all 64 bits
     const std::string text = plan_to_json({scene.scene, scene.digest, plan});
     const PlanFile file = parse_plan(text, "random");

@@ -24,6 +24,12 @@ inline Shape random_shape(Random& random) {
         prism.outline.push_back(rotated(angle, {random.in(0.03, 0.06), 0.0}));
       }
       prism.thickness = random.in(0.01, 0.1);
+      if (random.chance(0.3)) {  // lying in the pad plane
+        prism.axis = random.chance(0.5) ? Axis::kX : Axis::kY;
+        const double a = random.in(0.01, 0.03);
+        const double b = random.in(0.01, 0.03);
+        prism.outline = {{-a, -b}, {a, -b}, {1.2 * a, 0.0}, {a, b}, {-a, b}};
+      }
       return prism;
     }
   }
@@ -84,6 +90,21 @@ inline Pusher random_pusher(Random& random, int number) {
   return pusher;
 }
 
+inline Uncertainty random_uncertainty(Random& random) {
+  Uncertainty u;
+  u.spread = random.chance(0.5) ? Spread::kBox : Spread::kNormal;
+  u.sigmas = random.in(0.1, 10.0);
+  for (double* share :
+       {&u.friction, &u.finger_friction, &u.grip_force, &u.mass, &u.torque_radius}) {
+    *share = random.in(0.0, 0.9);
+  }
+  for (double* width : {&u.centre_of_mass, &u.start_position, &u.pusher_place,
+                        &u.start_angle, &u.pusher_tilt}) {
+    *width = random.in(0.0, 1.0);
+  }
+  return u;
+}
+
 /// A scene that `check` accepts.
 inline Scene random_scene(Random& random) {
   Scene scene;
@@ -98,6 +119,7 @@ inline Scene random_scene(Random& random) {
     if (!rolls && random.chance(0.5)) scene.object.z_OCom = random.in(-0.005, 0.005);
   }
   if (random.chance(0.3)) scene.object.inertia = random.log_in(1e-8, 1e-2);
+  if (random.chance(0.3)) scene.uncertainty = random_uncertainty(random);
   scene.gripper.name = "null";
   scene.gripper.pad = random_pad(random, !rolls);
   scene.gripper.friction = {random.in(0.0, 1.0), random.in(0.0, 1.0)};

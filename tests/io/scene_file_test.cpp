@@ -100,6 +100,29 @@ TEST(SceneFile, EveryFieldIsRead) {
   EXPECT_EQ(scene.goal->test, GoalTest::kWeightedSum);
 }
 
+// The axis of a prism is written only where it lies, so that files and digests of
+// standing ones are what they always were.
+TEST(SceneFile, AxisOfAPrism) {
+  const std::string lying =
+      "version: 1\n"
+      "object:\n"
+      "  prism: {outline: [[-0.01, -0.01], [0.01, -0.01], [0.01, 0.01], [-0.01, 0.01]],\n"
+      "          thickness: 0.1, axis: y}\n"
+      "  mass: 0.2\n"
+      "gripper: {pad: {disc: {radius: 0.009}}, friction: 0.5, grip_force: 20}\n";
+  for (const Axis axis : {Axis::kX, Axis::kY, Axis::kZ}) {
+    Scene scene = parse_scene(lying, "lying").scene;
+    auto& prism = std::get<PrismShape>(scene.object.shape);
+    EXPECT_EQ(prism.axis, Axis::kY);
+    prism.axis = axis;
+    const std::string text = scene_to_yaml(scene);
+    EXPECT_EQ(text.find("axis") == std::string::npos, axis == Axis::kZ) << text;
+    const Scene again = parse_scene(text, "again").scene;
+    EXPECT_EQ(std::get<PrismShape>(again.object.shape).axis, axis);
+    EXPECT_EQ(scene_to_yaml(again), text);
+  }
+}
+
 TEST(SceneFile, RandomScenesReturnUnchanged) {
   Random random(1);
   for (int i = 0; i < 500; ++i) {
@@ -117,11 +140,26 @@ TEST(SceneFile, RandomScenesReturnUnchanged) {
     if (scene.goal) {
       EXPECT_EQ(file.scene.goal->theta, scene.goal->theta);
     }
+    EXPECT_EQ(file.scene.uncertainty, scene.uncertainty);
     for (std::size_t k = 0; k < scene.pushers.size(); ++k) {
       EXPECT_EQ(file.scene.pushers[k].normal_angle, scene.pushers[k].normal_angle);
       EXPECT_EQ(file.scene.pushers[k].name, scene.pushers[k].name);
     }
   }
+}
+
+TEST(SceneFile, UncertaintyIsWrittenOnlyIfStated) {
+  Scene scene = parse_scene(kShortest, "shortest").scene;
+  EXPECT_EQ(scene_to_yaml(scene).find("uncertainty"), std::string::npos);
+  scene.uncertainty = Uncertainty{.friction = 0.2};
+  EXPECT_NE(scene_to_yaml(scene).find("uncertainty"), std::string::npos);
+  scene.uncertainty->mass = 0.95;
+  ASSERT_EQ(check(scene).size(), 1u);
+  EXPECT_EQ(check(scene)[0].field, "uncertainty.mass");
+  EXPECT_THROW(parse_scene(kShortest, "shortest", {"uncertainty={friction: -0.1}"}),
+               BadInput);
+  EXPECT_THROW(parse_scene(kShortest, "shortest", {"uncertainty={fricton: 0.1}"}),
+               BadInput);
 }
 
 TEST(SceneFile, WholeDegreesReturnAsWholeDegrees) {

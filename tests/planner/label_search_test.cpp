@@ -13,6 +13,8 @@ using testing::goal_at;
 using testing::kNoBudget;
 using testing::Random;
 
+constexpr double kNoPlan = std::numeric_limits<double>::infinity();
+
 struct Found {
   int chains = 0;
   int long_chains = 0;  ///< of three and more legs
@@ -39,7 +41,7 @@ Found search_random(Scene scene, const Vec2& low, const Vec2& high, int runs) {
     const Goal goal = goal_at(end, random.in(-3.0, 3.0));
     const GoalPlaces places = goal_places(model, goal, start);
     const auto answer = search_labels({search}, search, lattice_nodes(search, 150), start,
-                                      places, limits, work);
+                                      places, kNoPlan, limits, work);
     if (!answer) continue;
     const Chain& chain = answer->chain;
     ++found.chains;
@@ -69,6 +71,36 @@ TEST(LabelSearch, FindsLongChainsWhereTwoPushesDoNotDo) {
   EXPECT_GE(found.long_chains, 1);
 }
 
+TEST(LabelSearch, ReturnsNothingThatIsNotCheaperThanThePlanToBeat) {
+  Scene scene = published_tee(0);
+  scene.g_W.setZero();
+  const Model model = prepare(scene);
+  const SearchModel search = prepare_search(model, Margin{});
+  const PlanOptions options;
+  const std::vector<Vec2> nodes = lattice_nodes(search, 150);
+  Random random(5);
+  int found = 0;
+  for (int i = 0; i < 20; ++i) {
+    Work work{.budget = kNoBudget};
+    const Limits limits(options, work);
+    const FlatState start{random.in_box(0.02, 0.01), 0.0};
+    const Goal goal = goal_at(random.in_box(0.02, 0.01), random.in(-3.0, 3.0));
+    const GoalPlaces places = goal_places(model, goal, start);
+    const auto search_below = [&](double cost) {
+      return search_labels({search}, search, nodes, start, places, cost, limits, work);
+    };
+    const auto any = search_below(kNoPlan);
+    if (!any) continue;
+    ++found;
+    EXPECT_FALSE(search_below(any->chain.cost));
+    const auto cheaper = search_below(1.0001 * any->chain.cost);
+    if (cheaper) {
+      EXPECT_LT(cheaper->chain.cost, 1.0001 * any->chain.cost);
+    }
+  }
+  EXPECT_GE(found, 5);
+}
+
 TEST(LabelSearch, EndsAtTheBudget) {
   const Model model = prepare(published_tee(0));
   const SearchModel search = prepare_search(model, Margin{});
@@ -78,7 +110,7 @@ TEST(LabelSearch, EndsAtTheBudget) {
   const FlatState start = flat_state(model.scene.start);
   const GoalPlaces places = goal_places(model, goal_at({0.0499, 0.0149}, 3.0), start);
   const std::vector<Vec2> nodes = lattice_nodes(search, 150);
-  search_labels({search}, search, nodes, start, places, limits, work);
+  search_labels({search}, search, nodes, start, places, kNoPlan, limits, work);
   const auto one_expansion =
       static_cast<std::int64_t>((nodes.size() + 10) * search.contacts.size());
   EXPECT_GE(work.stick_tests, 5000);

@@ -51,10 +51,13 @@ UncertaintyBox random_box(Random& random) {
   return box;
 }
 
+/// Over the ellipsoid for every scene; over the points that stand for a disc up to what
+/// they differ from it where its centre of rotation passes between them.
 TEST(MarginOfBox, EverySceneOfTheBoxSticksWhereTheMarginSaysSo) {
+  constexpr double kQuadrature = 0.05;
   Random random(1);
-  int accepted = 0;
-  int slips = 0;
+  int accepted = 0, slips = 0, pad_slips = 0;
+  double worst = 1.0;
   for (int i = 0; i < 6000; ++i) {
     const Scene scene = random_scene(random);
     const Model model = prepare(scene);
@@ -62,32 +65,45 @@ TEST(MarginOfBox, EverySceneOfTheBoxSticksWhereTheMarginSaysSo) {
     const UncertaintyBox box = random_box(random);
     const Margin margin = margin_of(model, box);
     const PushContact& contact = model.contacts[0];
-    const Grasp start{pose_from_finger(random.in_box(0.02, 0.02), random.in(-3.0, 3.0)),
-                      0.0};
+    const Vec2 p_OF = random.in_box(0.02, 0.02);
+    const Grasp start{pose_from_finger(p_OF, random.in(-3.0, 3.0)), 0.0};
     LinearPush push;
     push.e = rotated(random.in(-0.7, 0.7), contact.n);
     push.travel = 0.02;
     push.turn = random.chance(0.3) ? 0.0 : random.in(-2.0, 2.0);
-    const StickTest robust = exact_stick_test(model, contact, push.place, start.X_HO,
-                                              push.e, push.travel, push.turn, margin);
-    if (!(robust.slack >= 0.0)) continue;
+    const double robust = robust_slack(stick_contact(model, contact, push.place), p_OF,
+                                       push.travel * push.e, push.turn, margin);
+    const StickTest pads = exact_stick_test(model, contact, push.place, start.X_HO,
+                                            push.e, push.travel, push.turn, margin);
+    if (!(std::min(robust, pads.slack) >= 0.0)) continue;
     ++accepted;
     for (int m = 0; m < 20; ++m) {
       const auto index = static_cast<std::uint64_t>(20 * i + m);
       const BoxPoint at =
-          m % 2 ? random_point(7, index) : corner(box, index * 2654435761u % 4096u);
+          m % 2 ? random_point(7, index) : corner(box, index * 2654435761U % 4096U);
       const UncertainPush member = vary(scene, start, push, box, at);
       const Model other = prepare(member.scene);
       const LinearPush& varied = std::get<LinearPush>(member.push);
-      const StickTest test =
+      const StickTest closed = stick_test(
+          stick_contact(other, other.contacts[0], varied.place), other.F,
+          finger_in_object(member.start.X_HO), varied.e, varied.travel, varied.turn);
+      slips += !(closed.slack >= -1e-9);
+      const double slack =
           exact_stick_test(other, other.contacts[0], varied.place, member.start.X_HO,
-                           varied.e, varied.travel, varied.turn, Margin::none());
-      slips += !(test.slack >= -1e-9);
+                           varied.e, varied.travel, varied.turn, Margin::none())
+              .slack;
+      pad_slips += !(slack >= -1e-9);
+      worst = std::min(worst, slack);
     }
   }
-  std::printf("%d pushes accepted, 20 scenes each, %d slip\n", accepted, slips);
+  std::printf(
+      "%d pushes accepted, 20 scenes each: %d slip over the ellipsoid, %d over "
+      "16 points, least slack %.1e\n",
+      accepted, slips, pad_slips, worst);
   EXPECT_GT(accepted, 500);
   EXPECT_EQ(slips, 0);
+  EXPECT_LT(pad_slips, accepted / 100);
+  EXPECT_GT(worst, -kQuadrature);
 }
 
 TEST(MarginOfBox, UsualBoxIsSmall) {

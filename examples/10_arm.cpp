@@ -63,7 +63,7 @@ int run(const char* scene_file, const char* arm_file) {
 
 int main(int argc, char** argv) {
   if (argc != 3) {
-    std::fprintf(stderr, "usage: 04_arm SCENE.yaml ARM.csv\n");
+    std::fprintf(stderr, "usage: 10_arm SCENE.yaml ARM.csv\n");
     return 2;
   }
   try {

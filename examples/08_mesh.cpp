@@ -13,7 +13,7 @@ using namespace prehensile;
 
 int main(int argc, char** argv) try {
   if (argc != 2) {
-    std::fprintf(stderr, "usage: 07_mesh MESH (in millimetres)\n");
+    std::fprintf(stderr, "usage: 08_mesh MESH (in millimetres)\n");
     return 2;
   }
   const TriangleMesh mesh = read_mesh(argv[1], 1e-3);

@@ -1,0 +1,266 @@
+#include "planner/fan_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "planner/chain.h"
+#include "planner/fan.h"
+#include "planner/inner_path.h"
+#include "planner/lattice.h"
+#include "planner/shorten.h"
+
+namespace prehensile {
+namespace {
+
+constexpr std::array<int, 13> kPieces = {1, 2, 3, 4, 6, 9, 14, 20, 30, 60, 120, 240, 400};
+constexpr std::array<double, 3> kDepths = {0.02, 0.1, 0.3};  // of moves in their ranges
+constexpr std::array<int, 4> kLegPieces = {8, 32, 128, 300};
+constexpr int kBranchNodes = 200;  // lattice of places where legs may begin
+constexpr int kMostBranches = 12;
+
+using Moves = std::vector<Move>;
+using Order = std::array<int, 3>;
+constexpr std::array<Order, 6> kOrders = {
+    {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
+
+/// One of the orders of the first `count` of three.
+bool orders_first(const Order& order, int count) {
+  for (int k = count; k < 3; ++k) {
+    if (order[k] != k) return false;
+  }
+  return true;
+}
+
+class FanSearch {
+ public:
+  FanSearch(const SearchModel& search, const PadEnvelope& envelope, const Limits& limits,
+            Work& work)
+      : search_(search), envelope_(envelope), limits_(limits), work_(work) {}
+
+  std::optional<Moves> run(const FlatState& start, const GoalPlaces& goals) {
+    for (int i = 0; i < goals.count && !limits_.reached(); ++i) {
+      const GoalPlace& place = goals.places[i];
+      for (int j = 0; j < place.count; ++j) {
+        if (auto moves = walk(start, {place.p_OF, place.theta[j]})) return moves;
+      }
+    }
+    for (int i = 0; i < goals.count && !limits_.reached(); ++i) {
+      const GoalPlace& place = goals.places[i];
+      if (auto moves = with_legs(start, {place.p_OF, place.theta[0]})) return moves;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  /// Along the shortest path on the object, in pieces short enough.
+  std::optional<Moves> walk(const FlatState& from, const FlatState& to) {
+    const std::vector<Vec2> path =
+        inner_path(search_.model->pad_face, from.p_OF, to.p_OF);
+    if (path.empty()) return std::nullopt;
+    for (const int pieces : kPieces) {
+      for (const double depth : kDepths) {
+        if (limits_.reached()) return std::nullopt;
+        if (auto moves = walk_pieces(from, to, cut_path(path, pieces), depth)) {
+          return moves;
+        }
+      }
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Moves> walk_pieces(const FlatState& from, const FlatState& to,
+                                   const std::vector<Vec2>& places, double depth) {
+    Moves moves;
+    FlatState at = from;
+    const std::size_t pieces = places.size() - 1;
+    for (std::size_t k = 1; k <= pieces; ++k) {
+      const double share = static_cast<double>(k) / static_cast<double>(pieces);
+      FlatState next{places[k], std::lerp(from.theta, to.theta, share)};
+      if (!step(fan_at(search_, envelope_, at.p_OF, depth, work_), at, next, false,
+                moves)) {
+        return std::nullopt;
+      }
+      at = next;
+    }
+    return moves;
+  }
+
+  /// Appends the moves of one piece; with `drifts` the angle of `next` is set by them.
+  bool step(const std::vector<Generator>& fan, const FlatState& at, FlatState& next,
+            bool drifts, Moves& moves) {
+    Vec3 wanted;
+    wanted << next.p_OF - at.p_OF,
+        drifts ? 0.0 : search_.model->c * (next.theta - at.theta);
+    const auto found = combine(fan, wanted);
+    return found && append(fan, *found, at, next, drifts, moves);
+  }
+
+  /// In the first order in which every move sticks, those that go on with the last
+  /// contact first.
+  bool append(const std::vector<Generator>& fan, const Combination& found,
+              const FlatState& at, FlatState& next, bool drifts, Moves& moves) {
+    const int contact = moves.empty() ? -1 : moves.back().contact;
+    for (const bool wants_to_go_on : {true, false}) {
+      for (const Order& order : kOrders) {
+        if (!orders_first(order, found.count)) continue;
+        const bool goes_on = fan[found.generator[order[0]]].contact == contact;
+        if (goes_on != wants_to_go_on) continue;
+        if (append_in_order(fan, found, order, at, next, drifts, moves)) return true;
+      }
+    }
+    return false;
+  }
+
+  bool append_in_order(const std::vector<Generator>& fan, const Combination& found,
+                       const Order& order, const FlatState& at, FlatState& next,
+                       bool drifts, Moves& moves) {
+    const std::size_t before = moves.size();
+    FlatState state = at;
+    for (int k = 0; k < found.count; ++k) {
+      const Generator& generator = fan[found.generator[order[k]]];
+      if (generator.contact < 0) continue;
+      const Vec3 d = found.amount[order[k]] * generator.u;
+      const FlatState end{state.p_OF + d.head<2>(),
+                          state.theta + d[2] / search_.model->c};
+      moves.push_back({generator.contact, state, end});
+      state = end;
+    }
+    if (!drifts && moves.size() > before) moves.back().to = next;  // without rounding
+    for (std::size_t i = before; i < moves.size(); ++i) {
+      if (!move_passes(search_, moves[i], work_)) {
+        moves.resize(before);
+        return false;
+      }
+    }
+    if (drifts) next = state;
+    return true;
+  }
+
+  bool all_stick(const Moves& moves) {
+    return std::all_of(moves.begin(), moves.end(), [this](const Move& move) {
+      return move_passes(search_, move, work_);
+    });
+  }
+
+  /// Along a path with the rotation left to itself.
+  std::optional<Moves> leg(const FlatState& from, const Vec2& to) {
+    const std::vector<Vec2> path = inner_path(search_.model->pad_face, from.p_OF, to);
+    if (path.empty()) return std::nullopt;
+    for (const int pieces : kLegPieces) {
+      for (const double depth : kDepths) {
+        if (limits_.reached()) return std::nullopt;
+        if (auto moves = leg_in_pieces(from, cut_path(path, pieces), depth)) return moves;
+      }
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Moves> leg_in_pieces(const FlatState& from,
+                                     const std::vector<Vec2>& places, double depth) {
+    Moves moves;
+    FlatState at = from;
+    for (std::size_t k = 1; k < places.size(); ++k) {
+      std::vector<Generator> fan = fan_at(search_, envelope_, at.p_OF, depth, work_);
+      free_rotation(fan);
+      FlatState next{places[k], at.theta};
+      if (!step(fan, at, next, true, moves)) return std::nullopt;
+      at = next;
+    }
+    return moves;
+  }
+
+  /// A leg into the goal, turned as a whole so that it ends with the wanted angle.
+  std::optional<Moves> leg_into(const Vec2& from, const FlatState& goal) {
+    auto moves = leg({from, goal.theta}, goal.p_OF);
+    if (!moves || moves->empty()) return std::nullopt;
+    const double drift = moves->back().to.theta - goal.theta;
+    for (Move& move : *moves) {
+      move.from.theta -= drift;
+      move.to.theta -= drift;
+    }
+    moves->back().to = goal;
+    // Isotropic pads feel the same at every angle; others are asked again.
+    if (!search_.exact_everywhere && !all_stick(*moves)) return std::nullopt;
+    return moves;
+  }
+
+  bool controllable(const Vec2& p_OF) {
+    return is_controllable(fan_at(search_, envelope_, p_OF, kDepths[1], work_));
+  }
+
+  /// Controllable places, nearest to p_OF along the object first; p_OF itself alone where
+  /// it is one.
+  std::vector<Vec2> branches(const Vec2& p_OF) {
+    if (controllable(p_OF)) return {p_OF};
+    std::vector<std::pair<double, Vec2>> found;
+    for (const Vec2& node : lattice_nodes(search_, kBranchNodes)) {
+      if (limits_.reached()) return {};
+      if (!controllable(node)) continue;
+      const auto path = inner_path(search_.model->pad_face, node, p_OF);
+      if (!path.empty()) found.emplace_back(path_length(path), node);
+    }
+    std::stable_sort(found.begin(), found.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<Vec2> places;
+    for (std::size_t i = 0; i < found.size() && places.size() < kMostBranches; ++i) {
+      places.push_back(found[i].second);
+    }
+    return places;
+  }
+
+  std::optional<Moves> first_leg_out(const FlatState& start) {
+    for (const Vec2& place : branches(start.p_OF)) {
+      if (place == start.p_OF) return Moves{};
+      if (auto moves = leg(start, place)) return moves;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Moves> with_legs(const FlatState& start, const FlatState& goal) {
+    const auto out = first_leg_out(start);
+    if (!out) return std::nullopt;
+    const FlatState begin = out->empty() ? start : out->back().to;
+    for (const Vec2& place : branches(goal.p_OF)) {
+      Moves in;
+      if (place != goal.p_OF) {
+        auto moves = leg_into(place, goal);
+        if (!moves) continue;
+        in = std::move(*moves);
+      }
+      if (auto plan = join(*out, begin, in.empty() ? goal : in.front().from, in)) {
+        return plan;
+      }
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Moves> join(const Moves& out, const FlatState& begin,
+                            const FlatState& end, const Moves& in) {
+    auto middle = walk(begin, end);
+    if (!middle) return std::nullopt;
+    Moves moves = out;
+    moves.insert(moves.end(), middle->begin(), middle->end());
+    moves.insert(moves.end(), in.begin(), in.end());
+    return moves;
+  }
+
+  const SearchModel& search_;
+  const PadEnvelope& envelope_;
+  const Limits& limits_;
+  Work& work_;
+};
+
+}  // namespace
+
+std::optional<std::vector<Move>> search_fan(const SearchModel& search,
+                                            const PadEnvelope& envelope,
+                                            const FlatState& start,
+                                            const GoalPlaces& goals, const Limits& limits,
+                                            Work& work) {
+  const auto moves = FanSearch(search, envelope, limits, work).run(start, goals);
+  if (!moves || moves->empty()) return std::nullopt;
+  return shortened(search, *moves, limits, work);
+}
+
+}  // namespace prehensile

@@ -1,0 +1,19 @@
+/// Shorter plans from long ones. Internal to the planner.
+#pragma once
+
+#include <vector>
+
+#include "planner/limits.h"
+
+namespace prehensile {
+
+/// The cheapest way through the states of a sequence of moves that joins them by single
+/// pushes, and then by two pushes through a crossing of cone lines; J never rises. Every
+/// push sticks with the real pad over the margin box. `moves` is not empty.
+std::vector<Move> shortened(const SearchModel& search, const std::vector<Move>& moves,
+                            const Limits& limits, Work& work);
+
+/// J of a sequence of moves.
+double cost_of(const SearchModel& search, const std::vector<Move>& moves);
+
+}  // namespace prehensile

@@ -13,8 +13,9 @@ namespace prehensile {
 ///
 /// The members have the least friction of the pusher and, at a line or plane, every
 /// combination of the ends of force, torque radius, place and centre of mass along the
-/// face; at a point, as for its slack, those of the force alone. Each must do the whole
-/// push without slip, certified. Allocates.
+/// face; at a point, as for its slack, those of the force alone. Errors of the grasp and
+/// of tilt are left to the slack of the pad plane. Each member must do the whole push
+/// without slip, certified. Allocates.
 std::string space_margin_fault(const Model& model, const PlannedPush& planned,
                                const Margin& margin, const TransitionOptions& options);
 

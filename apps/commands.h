@@ -27,6 +27,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options);
 
 Command add_plan(CLI::App& app);
 Command add_check(CLI::App& app);
+Command add_calibrate(CLI::App& app);
 Command add_query_instant(CLI::App& query);
 Command add_query_push(CLI::App& query);
 Command add_query_sweep(CLI::App& query);
@@ -35,6 +36,7 @@ Command add_query_spread(CLI::App& query);
 Command add_query_contact(CLI::App& query);
 Command add_query_place(CLI::App& query);
 Command add_inspect(CLI::App& app);
+Command add_report(CLI::App& app);
 Command add_mesh(CLI::App& app);  ///< not in builds without meshes
 
 }  // namespace prehensile::apps

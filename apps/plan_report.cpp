@@ -98,7 +98,9 @@ std::string contact_text(const Model& model, int contact) {
 std::string pose_text(const Model& model, const Grasp& grasp) {
   std::string out = text("x %.2f mm, y %.2f mm, theta %.2f deg", to_mm(grasp.X_HO.x),
                          to_mm(grasp.X_HO.y), to_deg(grasp.X_HO.theta));
-  if (model.cross_section) out += text(", roll %.2f deg", to_deg(grasp.psi));
+  if (model.cross_section || model.prism) {
+    out += text(", roll %.2f deg", to_deg(grasp.psi));
+  }
   return out;
 }
 

@@ -37,6 +37,7 @@ int run(int argc, char** argv) {
 
   const Command plan = add_plan(app);
   const Command check = add_check(app);
+  const Command calibrate = add_calibrate(app);
   const Command instant = add_query_instant(query);
   const Command push = add_query_push(query);
   const Command sweep = add_query_sweep(query);
@@ -45,9 +46,11 @@ int run(int argc, char** argv) {
   const Command contact = add_query_contact(query);
   const Command place = add_query_place(query);
   const Command inspect = add_inspect(app);
+  const Command report = add_report(app);
   std::vector<std::pair<const CLI::App*, Command>> commands = {
       {app.get_subcommand("plan"), plan},
       {app.get_subcommand("check"), check},
+      {app.get_subcommand("calibrate"), calibrate},
       {query.get_subcommand("instant"), instant},
       {query.get_subcommand("push"), push},
       {query.get_subcommand("sweep"), sweep},
@@ -55,7 +58,8 @@ int run(int argc, char** argv) {
       {query.get_subcommand("spread"), spread},
       {query.get_subcommand("contact"), contact},
       {query.get_subcommand("place"), place},
-      {app.get_subcommand("inspect"), inspect}};
+      {app.get_subcommand("inspect"), inspect},
+      {app.get_subcommand("report"), report}};
 #ifdef PREHENSILE_HAS_MESHES
   const Command mesh = add_mesh(app);
   commands.emplace_back(app.get_subcommand("mesh"), mesh);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <vector>
@@ -89,8 +90,9 @@ nlohmann::ordered_json to_json(const Transition& transition,
                    {"normal_force", number(s.normal_force)},
                    {"tangential_force", number(s.tangential_force)},
                    {"slip", number(s.slip_rate)},
-                   {"status", std::string(name(s.status))},
-                   {"certificate", number(s.certificate)}});
+                   {"status", std::string(name(s.status))}});
+    if (std::isfinite(s.opening)) sample["opening"] = s.opening;
+    sample.update({{"certificate", number(s.certificate)}});
     out["samples"].push_back(sample);
   }
   return out;

@@ -89,14 +89,4 @@ Ensemble run_ensemble(const Model& model, const Grasp& start, const Push& push,
   return out;
 }
 
-double quantile(const std::vector<double>& sorted, double share) {
-  if (sorted.empty()) return kNan;
-  const double at =
-      std::clamp(share, 0.0, 1.0) * (static_cast<double>(sorted.size()) - 1);
-  const std::size_t low = static_cast<std::size_t>(at);
-  const std::size_t high = std::min(low + 1, sorted.size() - 1);
-  const double rest = at - static_cast<double>(low);
-  return (1.0 - rest) * sorted[low] + rest * sorted[high];
-}
-
 }  // namespace prehensile::apps

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "primitives/spread_interval.h"
 #include "primitives/transition.h"
 #include "primitives/uncertainty.h"
 
@@ -55,8 +56,5 @@ struct EnsembleOptions {
 /// Pushes the nominal push and `samples` members; the same for any number of jobs.
 Ensemble run_ensemble(const Model& model, const Grasp& start, const Push& push,
                       const EnsembleOptions& options);
-
-/// Value below which a share of the sorted values lies, interpolated; NaN if empty.
-double quantile(const std::vector<double>& sorted, double share);
 
 }  // namespace prehensile::apps

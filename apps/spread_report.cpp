@@ -17,15 +17,16 @@ constexpr std::array<const char*, kDeviations> kKeys = {"normal", "tangential", 
 
 double shown(int part, double value) { return part == 2 ? to_deg(value) : to_mm(value); }
 
-struct Quantiles {
-  double low, middle, high;
-};
+SpreadQuantiles quantiles(const Ensemble& ensemble, int part, double level) {
+  return spread_quantiles(ensemble.sorted(&EnsembleMember::end, kDeviationParts[part]),
+                          level);
+}
 
-Quantiles quantiles(const Ensemble& ensemble, int part, double level) {
-  const std::vector<double> values =
-      ensemble.sorted(&EnsembleMember::end, kDeviationParts[part]);
-  return {quantile(values, 0.5 - 0.5 * level), quantile(values, 0.5),
-          quantile(values, 0.5 + 0.5 * level)};
+/// A share of real pushes is stated only where a factor was learnt on some.
+std::string interval_name(const SpreadReport& report) {
+  return report.has_factor
+             ? text("stated %g %%", 100.0 * report.level)
+             : text("%g %% of the box, without a factor", 100.0 * report.level);
 }
 
 std::string range_text(int part, double low, double high) {
@@ -38,7 +39,7 @@ nlohmann::ordered_json ensemble_json(const SpreadReport& report, const Ensemble&
                                 {"samples", ensemble.members.size()},
                                 {"completed", ensemble.completed()}};
   for (int part = 0; part < kDeviations; ++part) {
-    const Quantiles q = quantiles(ensemble, part, report.level);
+    const SpreadQuantiles q = quantiles(ensemble, part, report.level);
     out[kKeys[part]] = {
         {"low", number(q.low)}, {"median", number(q.middle)}, {"high", number(q.high)}};
   }
@@ -81,15 +82,12 @@ plot::Steps distribution(const Ensemble& ensemble, const char* label,
 
 double SpreadReport::floor(int part) const {
   const Deviation& motion = from_both.nominal_motion;
-  return floor_share * (part == 2 ? std::abs(motion.angle)
-                                  : std::hypot(motion.normal, motion.tangential));
+  if (part == 2) return std::hypot(floor_share * motion.angle, scatter_angle);
+  return std::hypot(floor_share * std::hypot(motion.normal, motion.tangential), scatter);
 }
 
-SpreadReport::Interval SpreadReport::interval(int part) const {
-  const Quantiles q = quantiles(from_both, part, level);
-  const double ground = floor(part);
-  return {q.middle - factor[part] * std::hypot(q.middle - q.low, ground),
-          q.middle + factor[part] * std::hypot(q.high - q.middle, ground)};
+SpreadInterval SpreadReport::interval(int part) const {
+  return stated_interval(quantiles(from_both, part, level), floor(part), factor[part]);
 }
 
 std::string describe(const SpreadReport& report) {
@@ -103,16 +101,17 @@ std::string describe(const SpreadReport& report) {
   if (!joint.nominal.reason.empty()) out += std::string(joint.nominal.reason) + '\n';
   out += text("of %zu pushes of the whole box: ", joint.members.size()) + joint.tally() +
          text(
-             "\ndeviation of the end pose from the nominal one, %g %% of the completed "
-             "pushes:\n",
+             "\ndeviation of the end pose from the nominal one; the columns before the "
+             "factor hold %g %% of the\npushes of their box, which is not the share of "
+             "real pushes: that is what the factor is for\n",
              100.0 * report.level);
   Table table({"", "friction and pressure", "registration", "both", "floor ±", "factor",
-               "stated interval"});
+               interval_name(report)});
   for (int part = 0; part < kDeviations; ++part) {
-    const Quantiles a = quantiles(report.from_mechanics, part, report.level);
-    const Quantiles b = quantiles(report.from_registration, part, report.level);
-    const Quantiles c = quantiles(joint, part, report.level);
-    const SpreadReport::Interval stated = report.interval(part);
+    const SpreadQuantiles a = quantiles(report.from_mechanics, part, report.level);
+    const SpreadQuantiles b = quantiles(report.from_registration, part, report.level);
+    const SpreadQuantiles c = quantiles(joint, part, report.level);
+    const SpreadInterval stated = report.interval(part);
     table.add(
         {kNames[part], range_text(part, a.low, a.high), range_text(part, b.low, b.high),
          range_text(part, c.low, c.high), text("%.3f", shown(part, report.floor(part))),
@@ -121,8 +120,14 @@ std::string describe(const SpreadReport& report) {
   out += table.str();
   out += "spread from friction and pressure: " + box_text(report.mechanics) + '\n';
   out += "registration: " + box_text(report.registration) + '\n';
-  out += text("floor: %g %% of the motion, friction from spot to spot\n",
+  out += "these boxes: " + report.box_source + '\n';
+  out += text("floor: %g %% of the motion, friction from spot to spot",
               100.0 * report.floor_share);
+  if (report.scatter > 0.0) {
+    out += text("; %.3g mm and %.3g deg that the calibration could not explain",
+                to_mm(report.scatter), to_deg(report.scatter_angle));
+  }
+  out += '\n';
   return out + "factor: " + report.factor_source + '\n';
 }
 
@@ -132,6 +137,7 @@ nlohmann::ordered_json to_json(const SpreadReport& report) {
   nlohmann::ordered_json out = {
       {"question", report.question},
       {"level", number(report.level)},
+      {"boxes", report.box_source},
       {"nominal",
        {{"status", std::string(name(joint.nominal.status))},
         {"reason", std::string(joint.nominal.reason)},
@@ -143,11 +149,14 @@ nlohmann::ordered_json to_json(const SpreadReport& report) {
       {"registration",
        ensemble_json(report, report.from_registration, report.registration)},
       {"both", ensemble_json(report, joint, both(report))},
-      {"floor", {{"share_of_motion", number(report.floor_share)}}},
+      {"floor",
+       {{"share_of_motion", number(report.floor_share)},
+        {"scatter", number(report.scatter)},
+        {"scatter_angle", number(report.scatter_angle)}}},
       {"factor", {{"source", report.factor_source}}},
       {"interval", nlohmann::ordered_json::object()}};
   for (int part = 0; part < kDeviations; ++part) {
-    const SpreadReport::Interval stated = report.interval(part);
+    const SpreadInterval stated = report.interval(part);
     out["floor"][kKeys[part]] = number(report.floor(part));
     out["factor"][kKeys[part]] = number(report.factor[part]);
     out["interval"][kKeys[part]] = {{"low", number(stated.low)},
@@ -177,15 +186,15 @@ std::string to_svg(const SpreadReport& report) {
   plot::Chart ends{.title = "Where the push ends", .subtitle = report.question};
   ends.x.label = "along the normal, against nominal [mm]";
   ends.y.label = "along the face, against nominal [mm]";
-  const SpreadReport::Interval x = report.interval(0);
-  const SpreadReport::Interval y = report.interval(1);
+  const SpreadInterval x = report.interval(0);
+  const SpreadInterval y = report.interval(1);
   ends.series = {
       places(report.from_both, "both", plot::Colour::kSky, plot::Mark::kCircle, 3.5),
       places(report.from_registration, "registration", plot::Colour::kOrange,
              plot::Mark::kSquare, 1.8),
       places(report.from_mechanics, "friction and pressure", plot::Colour::kBlue,
              plot::Mark::kDiamond, 2.2),
-      plot::Region{.label = text("stated %g %% of each", 100.0 * report.level),
+      plot::Region{.label = interval_name(report) + " of each",
                    .points = {{to_mm(x.low), to_mm(y.low)},
                               {to_mm(x.high), to_mm(y.low)},
                               {to_mm(x.high), to_mm(y.high)},
@@ -196,12 +205,12 @@ std::string to_svg(const SpreadReport& report) {
   angles.x.label = "angle, against nominal [deg]";
   angles.y.label = "share of pushes";
   angles.y.from_zero = true;
-  const SpreadReport::Interval angle = report.interval(2);
+  const SpreadInterval angle = report.interval(2);
   angles.series = {
       distribution(report.from_both, "both", plot::Colour::kSky),
       distribution(report.from_registration, "registration", plot::Colour::kOrange),
       distribution(report.from_mechanics, "friction and pressure", plot::Colour::kBlue),
-      plot::Rule{.label = text("stated %g %%", 100.0 * report.level),
+      plot::Rule{.label = interval_name(report),
                  .value = to_deg(angle.low),
                  .vertical = true,
                  .colour = plot::Colour::kRed},

@@ -305,7 +305,7 @@ void run_sweep(Sweep& sweep, const SceneFile& file, const SceneOptions& scene, i
     try {
       row = one_scene
                 ? ask(*model, question)
-                : ask(prepare(parse_scene(file.text, scene.file, overrides, folder).scene,
+                : ask(prepare(parse_scene_alone(file.text, scene.file, overrides, folder),
                               options),
                       question);
     } catch (const BadInput& bad) {

@@ -107,8 +107,8 @@ std::string box_text(const UncertaintyBox& box) {
     for (char& c : key) c = c == '_' ? ' ' : c;
     if (!out.empty()) out += ", ";
     out += key;
-    out += relative ? text(" ±%g %%", 100.0 * width)
-                    : text(" ±%g %s", width / entry.unit, entry.shown);
+    out += relative ? text(" ±%.4g %%", 100.0 * width)
+                    : text(" ±%.4g %s", width / entry.unit, entry.shown);
   }
   return out.empty() ? "nothing" : out;
 }

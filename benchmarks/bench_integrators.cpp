@@ -1,12 +1,14 @@
 /// Error against evaluations and time of integrators of a push by a point: fixed Euler,
 /// fixed Runge-Kutta 4, adaptive Dormand-Prince, and the transition function, with and
-/// without located changes of contact mode; over lengths, and on stiff and extreme
-/// pushes. One CSV line per run; --charts writes error against time as SVG.
+/// without located changes of contact mode; over lengths, on stiff and extreme
+/// pushes, and on winding ones with 0 to 10 events. One CSV line per run; --charts writes
+/// error against time as SVG.
 ///
 /// The error is that of the end pose (angles weigh the torque radius) against the
 /// transition at tolerance 1e-12 with steps of at most a tenth of the push; only pushes
 /// that this completes are measured.
 /// Usage: bench_integrators [--quick] [--pushes N] [--seed S] [-o FILE] [--charts FILE]
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <map>
@@ -34,9 +36,10 @@ struct Options {
 
 /// A kind of push; `shape` changes a random one.
 struct Set {
-  const char* name;
+  std::string name;
   double travel;  // [m]
   void (*shape)(RandomPush&, int index);
+  int events = -1;  // that a push shall have; -1: any number
 };
 
 void ordinary(RandomPush&, int) {}
@@ -63,14 +66,31 @@ void threshold(RandomPush& c, int index) {
   c.scene.pushers[0].friction = ratio * (index % 2 == 0 ? 1.0 + 1e-6 : 1.0 - 1e-6);
 }
 
-constexpr Set kSets[] = {
-    {"10 mm", 0.01, ordinary},      {"40 mm", 0.04, ordinary},
-    {"80 mm", 0.08, ordinary},      {"high friction", 0.04, high_friction},
-    {"tiny pads", 0.04, tiny_pads}, {"threshold", 0.04, threshold},
-};
+/// The pusher turns by 1 to 9 rad while its way turns back half as far again: sticking
+/// and slipping either way take turns.
+void winding(RandomPush& c, int index) {
+  c.push.turn = (index % 2 == 0 ? -1.0 : 1.0) * (1.0 + 0.5 * (index % 17));
+  c.push.bend = -1.5 * c.push.turn;
+}
+
+/// A set for every number of events that is wanted; a few pushes each.
+std::vector<Set> sets(bool quick) {
+  std::vector<Set> all{
+      {"10 mm", 0.01, ordinary},      {"40 mm", 0.04, ordinary},
+      {"80 mm", 0.08, ordinary},      {"high friction", 0.04, high_friction},
+      {"tiny pads", 0.04, tiny_pads}, {"threshold", 0.04, threshold},
+  };
+  for (int events = 0; events <= 10; ++events) {
+    if (quick && events != 2) continue;
+    all.push_back({std::to_string(events) + " events", 0.08, winding, events});
+  }
+  return all;
+}
+constexpr int kPushesPerEventful = 8;  // of other sets for one of these
+constexpr int kMostDrawn = 20000;      // in search of one
 
 struct Run {
-  const char* set;
+  std::string set;
   int push;
   const char* friction;  // "pads" or "ellipsoid"
   std::string integrator;
@@ -96,7 +116,8 @@ class Measurement {
   Measurement(const Options& options, std::vector<Run>& runs)
       : options_(options), runs_(runs) {}
 
-  void measure(const Set& set, int index, FrictionModel friction) {
+  /// False if the push is not one of the set, or does not complete.
+  bool measure(const Set& set, int index, FrictionModel friction) {
     const RandomPush c = drawn(options_, set, index);
     const Model model = prepare(c.scene);
     const Grasp& start = c.scene.start;
@@ -104,8 +125,13 @@ class Measurement {
                                  .max_step = 0.005,
                                  .max_steps = 10000,
                                  .friction_model = friction};
+    if (set.events >= 0) {
+      const Transition t = apply(model, start, c.push, {.friction_model = friction});
+      if (!t.completed() || t.event_count != set.events) return false;
+    }
     const Transition reference = apply(model, start, c.push, fine);
-    if (!reference.completed()) return;
+    if (!reference.completed()) return false;
+    if (set.events >= 0 && reference.event_count != set.events) return false;
     Run run{};
     run.set = set.name;
     run.push = index;
@@ -159,6 +185,7 @@ class Measurement {
         count = t.instants;
       });
     }
+    return true;
   }
 
  private:
@@ -189,7 +216,7 @@ void write_csv(const Options& options, const std::vector<Run>& runs, std::FILE* 
   const std::string cpu = field(cpu_name());
   for (const Run& run : runs) {
     std::fprintf(out, "%llu,%s,%d,%s,%s,%g,%d,%d,%d,%.4g,%.4g,%s,%s\n",
-                 static_cast<unsigned long long>(options.seed), run.set, run.push,
+                 static_cast<unsigned long long>(options.seed), run.set.c_str(), run.push,
                  run.friction, run.integrator.c_str(), run.parameter,
                  run.completed ? 1 : 0, run.reference_events, run.evaluations, run.error,
                  run.time_us, compiler.c_str(), cpu.c_str());
@@ -212,8 +239,9 @@ void write_summary(const std::vector<Run>& runs, std::FILE* out) {
   std::vector<Key> order;
   constexpr double kNever = std::numeric_limits<double>::infinity();
   for (const Run& run : runs) {
+    const bool counted = run.set.ends_with("events");
     const std::string events = run.reference_events > 0 ? ", events" : ", none";
-    const Key key{run.set + events, run.friction, run.integrator};
+    const Key key{counted ? run.set : run.set + events, run.friction, run.integrator};
     if (!table.contains(key)) order.push_back(key);
     auto& best = table[key]
                      .try_emplace(run.push,
@@ -244,12 +272,12 @@ void write_summary(const std::vector<Run>& runs, std::FILE* out) {
 bool write_charts(const std::vector<Run>& runs, const char* file) {
   std::vector<ErrorChart> charts;
   for (const char* friction : {"ellipsoid", "pads"}) {
-    for (const Set& set : kSets) {
-      ErrorChart chart{std::string(set.name) + ", " + friction, {}};
+    for (const Set& set : sets(false)) {
+      if (set.events >= 0 && set.events % 5 != 0) continue;
+      ErrorChart chart{set.name + ", " + friction, {}};
       std::map<std::string, std::map<double, std::array<std::vector<double>, 2>>> lines;
       for (const Run& run : runs) {
-        if (run.set != std::string(set.name) || run.friction != std::string(friction))
-          continue;
+        if (run.set != set.name || run.friction != std::string(friction)) continue;
         auto& at = lines[run.integrator][run.parameter];
         at[0].push_back(run.time_us);
         at[1].push_back(run.completed ? run.error : 1.0);
@@ -293,11 +321,14 @@ int run(int count, char** arguments) {
   if (!csv.get()) return 2;
   std::vector<Run> runs;
   Measurement measurement(options, runs);
-  for (const Set& set : kSets) {
-    for (int index = 0; index < options.pushes; ++index) {
-      for (const FrictionModel friction :
-           {FrictionModel::kEllipsoid, FrictionModel::kPads}) {
-        measurement.measure(set, index, friction);
+  for (const Set& set : sets(options.quick)) {
+    for (const FrictionModel friction :
+         {FrictionModel::kEllipsoid, FrictionModel::kPads}) {
+      const bool counts = set.events >= 0;
+      int left = counts ? std::max(1, options.pushes / kPushesPerEventful) : kMostDrawn;
+      const int until = counts ? kMostDrawn : options.pushes;
+      for (int index = 0; index < until && left > 0; ++index) {
+        if (measurement.measure(set, index, friction)) --left;
       }
     }
   }

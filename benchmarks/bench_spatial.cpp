@@ -7,14 +7,19 @@
 /// whose unknowns need inertia), 0.1 and 10 m/s^2.
 ///
 /// `residual` is the natural map on circular cones for all of them, by one function;
-/// errors are against the exact solver. A run is a success if its residual is at most
-/// 1e-6; polyhedral answers, which cannot be that, if their own residual is.
+/// errors are against the answer that Newton's method in long double finds from that of
+/// the exact solver (benchmarks/converged.h). A run is a success if its residual is at
+/// most 1e-6; polyhedral answers, which cannot be that, if their own residual is.
+/// `distance` is how far an answer is from the one that the same method finds from
+/// itself: small where `twist_error` is large means another motion.
 ///
 /// Usage: bench_spatial [--quick] [--instances N] [--peers-every N] [--seed S] [-o FILE]
 ///        --peers-every N: the slow solvers get every N-th instance only
 #include <cstdint>
 #include <cstdio>
+#include <map>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -25,6 +30,10 @@
 
 namespace prehensile::benchmarks {
 namespace {
+
+/// Answers agree if push forces and twists do within this share of the capacity of the
+/// pads and of the push rate.
+constexpr double kAgreement = 1e-6;
 
 struct Options {
   int instances = 60;
@@ -40,10 +49,12 @@ struct Options {
 
 void run_instance(const Options& options, int points, double acceleration, int index,
                   std::vector<SpatialRun>& runs) {
-  const SpatialQuestion q = posed(random_spatial(
+  SpatialQuestion q = posed(random_spatial(
       options.seed, static_cast<std::uint64_t>(index),
       {.points_per_pad = points, .pusher_points = 1, .acceleration = acceleration}));
+  sharpen_truth(q);
   const auto add = [&](SpatialRun run) {
+    measure_distance(q, run);
     run.points = points;
     run.acceleration = acceleration;
     run.instance = index;
@@ -66,17 +77,18 @@ void write_csv(const Options& options, const std::vector<SpatialRun>& runs,
                std::FILE* out) {
   std::fputs(
       "solver,generators,points_per_pad,acceleration,seed,instance,reference_status,"
-      "success,force_error,twist_error,residual,time_us,iterations,compiler,cpu\n",
+      "success,force_error,twist_error,residual,distance,least_gain,time_us,iterations,"
+      "compiler,cpu\n",
       out);
   const std::string compiler = field(compiler_name());
   const std::string cpu = field(cpu_name());
   for (const SpatialRun& run : runs) {
-    std::fprintf(out, "%s,%d,%d,%g,%llu,%d,%s,%d,%.6g,%.6g,%.3g,%.4g,%d,%s,%s\n",
-                 run.solver, run.generators, run.points, run.acceleration,
-                 static_cast<unsigned long long>(options.seed), run.instance,
-                 run.reference_status, run.success ? 1 : 0, run.force_error,
-                 run.twist_error, run.residual, run.time_us, run.iterations,
-                 compiler.c_str(), cpu.c_str());
+    std::fprintf(
+        out, "%s,%d,%d,%g,%llu,%d,%s,%d,%.6g,%.6g,%.3g,%.3g,%.3g,%.4g,%d,%s,%s\n",
+        run.solver, run.generators, run.points, run.acceleration,
+        static_cast<unsigned long long>(options.seed), run.instance, run.reference_status,
+        run.success ? 1 : 0, run.force_error, run.twist_error, run.residual, run.distance,
+        run.least_gain, run.time_us, run.iterations, compiler.c_str(), cpu.c_str());
   }
 }
 
@@ -121,6 +133,44 @@ void write_summary(const std::vector<SpatialRun>& runs, std::FILE* out) {
   }
 }
 
+/// Of the instants with two or more points per pad that the exact solver and a peer both
+/// solve: on how many they agree, and who is right on the others.
+void write_agreement(const std::vector<SpatialRun>& runs, std::FILE* out) {
+  struct Agreement {
+    int both = 0, agree = 0, other_motion = 0, exact_right = 0, peer_right = 0;
+    double worst_exact = 0.0, worst_peer = 0.0;
+  };
+  std::map<std::pair<double, std::string>, Agreement> table;
+  const SpatialRun* exact = nullptr;
+  for (const SpatialRun& run : runs) {
+    if (run.solver == std::string_view("exact")) exact = &run;
+    if (!std::string_view(run.solver).starts_with("siconos") || run.points < 2) continue;
+    if (!run.asked || !run.success || !exact->success) continue;
+    Agreement& row = table[{run.acceleration, run.solver}];
+    ++row.both;
+    row.worst_exact = std::max(row.worst_exact, exact->distance);
+    row.worst_peer = std::max(row.worst_peer, run.distance);
+    const double exact_error = std::max(exact->force_error, exact->twist_error);
+    const double peer_error = std::max(run.force_error, run.twist_error);
+    if (exact_error + peer_error <= kAgreement) {
+      ++row.agree;
+    } else if (run.distance <= 1e-3 && peer_error > 1e-3) {
+      ++row.other_motion;
+    } else {
+      row.exact_right += exact->distance <= kAgreement ? 1 : 0;
+      row.peer_right += run.distance <= kAgreement ? 1 : 0;
+    }
+  }
+  if (table.empty()) return;
+  std::fprintf(out, "\n%6s %-15s%6s%7s%7s%8s%8s%12s%12s\n", "accel", "peer", "both",
+               "agree", "other", "exact ok", "peer ok", "exact off", "peer off");
+  for (const auto& [key, row] : table) {
+    std::fprintf(out, "%6g %-15s%6d%7d%7d%8d%8d%12.1e%12.1e\n", key.first,
+                 key.second.c_str(), row.both, row.agree, row.other_motion,
+                 row.exact_right, row.peer_right, row.worst_exact, row.worst_peer);
+  }
+}
+
 bool read_options(int count, char** arguments, Options& options) {
   return take_options(count, arguments,
                       {{"-o", &options.file},
@@ -159,6 +209,7 @@ int run(int count, char** arguments) {
   write_csv(options, runs, csv.get());
   const bool written = csv.close();
   write_summary(runs, stderr);
+  write_agreement(runs, stderr);
   return written ? 0 : 1;
 }
 

@@ -18,17 +18,37 @@ SpatialWrench push_of(const SpatialProblem& q, const SpatialAnswer& answer) {
   return w;
 }
 
+double force_difference(const SpatialQuestion& q, const SpatialWrench& a,
+                        const SpatialWrench& b) {
+  return (a - b).head<3>().norm() / q.capacity;
+}
+
+double twist_difference(const SpatialQuestion& q, const SpatialTwist& a,
+                        const SpatialTwist& b) {
+  SpatialTwist V = a - b;
+  V.tail<3>() *= q.units.length;
+  return V.norm() / q.units.rate;
+}
+
+SpatialAnswer answer_of(const SpatialInstant& exact) {
+  SpatialAnswer answer{
+      .given = usable(exact.status), .V_HO = exact.V_HO, .jaw_rate = exact.jaw_rate};
+  for (int i = 0; i < exact.count; ++i) {
+    const SpatialPoint& point = exact.point[i];
+    answer.force.emplace_back(point.normal_force, point.tangential_force.x(),
+                              point.tangential_force.y());
+  }
+  return answer;
+}
+
 void compare(const SpatialQuestion& q, const SpatialAnswer& answer, SpatialRun& run) {
   run.asked = q.truth.status == InstantStatus::kMoves;
   run.reference_status = name(q.truth.status).data();
   run.residual = natural_residual(q.problem, answer, q.units);
   run.success = run.residual <= kSuccess;
   if (!run.asked || !answer.given) return;
-  const SpatialWrench w = push_of(q.problem, answer) - q.truth.w_push;
-  SpatialTwist V = answer.V_HO - q.truth.V_HO;
-  V.tail<3>() *= q.units.length;
-  run.force_error = w.head<3>().norm() / q.capacity;
-  run.twist_error = V.norm() / q.units.rate;
+  run.force_error = force_difference(q, push_of(q.problem, answer), q.truth.w_push);
+  run.twist_error = twist_difference(q, answer.V_HO, q.truth.V_HO);
 }
 
 template <typename Solve>
@@ -66,6 +86,29 @@ SpatialQuestion posed(const SpatialProblem& problem) {
   return q;
 }
 
+void sharpen_truth(SpatialQuestion& q) {
+  if (!usable(q.truth.status)) return;
+  const ConvergedAnswer found =
+      converged_from(q.problem, q.units, answer_of(solve_spatial(q.problem)));
+  if (!found.answer.given) return;
+  q.truth.V_HO = found.answer.V_HO;
+  q.truth.w_push = push_of(q.problem, found.answer);
+}
+
+void measure_distance(const SpatialQuestion& q, SpatialRun& run) {
+  if (!run.answer.given) return;
+  const ConvergedAnswer found = converged_from(q.problem, q.units, run.answer);
+  if (!found.answer.given) return;
+  run.distance = difference(q, run.answer, found.answer);
+  run.least_gain = found.least_gain;
+}
+
+double difference(const SpatialQuestion& q, const SpatialAnswer& a,
+                  const SpatialAnswer& b) {
+  return std::max(force_difference(q, push_of(q.problem, a), push_of(q.problem, b)),
+                  twist_difference(q, a.V_HO, b.V_HO));
+}
+
 SpatialRun exact_run(const SpatialQuestion& q, int batches,
                      const SpatialSolveOptions& options) {
   SpatialRun run{.solver = "exact"};
@@ -74,18 +117,12 @@ SpatialRun exact_run(const SpatialQuestion& q, int batches,
       time_us([&] { used = solve_spatial(q.problem, options).residual; }, batches);
   const SpatialInstant exact = solve_spatial(q.problem, options);
   run.iterations = exact.iterations;
-  SpatialAnswer answer{
-      .given = usable(exact.status), .V_HO = exact.V_HO, .jaw_rate = exact.jaw_rate};
-  for (int i = 0; i < exact.count; ++i) {
-    const SpatialPoint& point = exact.point[i];
-    answer.force.emplace_back(point.normal_force, point.tangential_force.x(),
-                              point.tangential_force.y());
-  }
-  compare(q, answer, run);
+  run.answer = answer_of(exact);
+  compare(q, run.answer, run);
   // Rigid pads are judged by the solver's own residual: the laws here know foundations.
   if (options.rigid_limit) {
     run.residual = exact.residual;
-    run.success = answer.given && run.residual <= kSuccess;
+    run.success = run.answer.given && run.residual <= kSuccess;
   }
   return run;
 }
@@ -103,7 +140,8 @@ SpatialRun siconos_run(const SpatialQuestion& q, SiconosSolver solver) {
   const SiconosRun found = solve_siconos(q.problem, solver, kSeconds);
   run.time_us = found.time_us;
   run.iterations = found.iterations;
-  compare(q, found.answer, run);
+  run.answer = found.answer;
+  compare(q, run.answer, run);
   return run;
 }
 

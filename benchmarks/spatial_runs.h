@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "benchmarks/converged.h"
 #include "benchmarks/natural_map.h"
 #include "benchmarks/siconos_peer.h"
 #include "mechanics/spatial_instant.h"
@@ -29,6 +30,11 @@ struct SpatialRun {
   double force_error = kNan;  ///< of the push force, in capacities of the pads
   double twist_error = kNan;  ///< in push rates, turns by 1 cm
   double residual = kNan;
+  /// Distance to the answer that Newton's method in long double finds from this one, the
+  /// larger of force and twist, in the same units; set by `measure_distance`.
+  double distance = kNan;
+  double least_gain = kNan;  ///< see ConvergedAnswer
+  SpatialAnswer answer;      ///< of circular cones
   double time_us = kNan;
   int iterations = 0;
 };
@@ -51,6 +57,17 @@ struct SpatialQuestion {
 
 /// `problem` with its exact answer as truth.
 SpatialQuestion posed(const SpatialProblem& problem);
+
+/// Moves the truth to what Newton's method in long double makes of it; without effect
+/// where that does not converge, or where there is no motion.
+void sharpen_truth(SpatialQuestion& q);
+
+/// For runs on circular cones that gave an answer.
+void measure_distance(const SpatialQuestion& q, SpatialRun& run);
+
+/// Larger of the errors of push force [capacities] and twist [push rates], turns by 1 cm.
+double difference(const SpatialQuestion& q, const SpatialAnswer& a,
+                  const SpatialAnswer& b);
 
 /// `batches`: see time_us.
 SpatialRun exact_run(const SpatialQuestion& q, int batches,

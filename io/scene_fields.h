@@ -100,12 +100,17 @@ void visit_object(Fields& fields, Object& object) {
             f.word("axis", cylinder.axis, kAxisWords, kOptional, "Axis in O.");
           }),
       alternative<PrismShape>(
-          "prism", "Straight prism along z over a polygon in the pad plane of O.",
+          "prism",
+          "Straight prism over a polygon: along z, the polygon in the pad plane of O; or "
+          "lying along x or y, the polygon its convex section, which a support can roll "
+          "over its edges.",
           [](auto& f, PrismShape& prism) {
             f.points("outline", prism.outline, Length{3, 200}, kPlaces,
-                     "Vertices [x, y], counter-clockwise; edges must not cross.");
+                     "Vertices, counter-clockwise; edges must not cross. [x, y]; of a "
+                     "section [y, z] (axis x) or [x, z] (axis y).");
             f.number("thickness", prism.thickness, kLengths, kRequired,
-                     "Along z, between the jaws.");
+                     "Along the axis.");
+            f.word("axis", prism.axis, kAxisWords, kOptional, "Of the prism in O.");
           }),
       alternative<SolidShape>("solid",
                               "Any solid body held at two flat faces, as made from a "
@@ -267,6 +272,32 @@ void visit_goal(Fields& fields, Goal& goal) {
 }
 
 template <typename Fields>
+void visit_calibration(Fields& fields, CalibrationRecord& record) {
+  constexpr Bounds kShares{0.0, 1.0, ""};
+  constexpr Bounds kFactors{0.0, 1e3, ""};
+  fields.text("data", record.data, kOptional, "Where the measurements are from.");
+  fields.count("pushes", record.pushes, "How many, or readings.");
+  fields.vector("registration", record.registration, kPlaces, kOptional,
+                "In H: true place of a pusher minus measured place.");
+  fields.number("friction", record.friction, kShares, kOptional,
+                "Of the pushers: half width of what stayed uncertain, 90 %, as a share.");
+  fields.number("finger_friction", record.finger_friction, kShares, kOptional,
+                "Half width, as a share.");
+  fields.number("torque_radius", record.torque_radius, kShares, kOptional,
+                "Half width, as a share.");
+  fields.number("place", record.place, {0.0, 1.0, "m"}, kOptional,
+                "Half width, along the face and towards it.");
+  fields.number("scatter", record.scatter, {0.0, 1.0, "m"}, kOptional,
+                "What no parameter explains of where pushes end, measurement included.");
+  fields.angle("scatter_angle", record.scatter_angle, {0.0, 4.0, "rad"},
+               "The same of how far they turn.");
+  fields.vector("factors_50", record.factors_50, kFactors,
+                "On intervals of the end of a push (normal, tangential, angle) that made "
+                "them cover 50 % of the measured ends. Absent: too few.");
+  fields.vector("factors_90", record.factors_90, kFactors, "The same for 90 %.");
+}
+
+template <typename Fields>
 void visit_uncertainty(Fields& fields, Uncertainty& uncertainty) {
   fields.word("spread", uncertainty.spread, kSpreadWords, kOptional,
               "box: the numbers below are half widths; normal: standard deviations.");
@@ -319,6 +350,10 @@ void visit_scene(Fields& fields, Scene& scene) {
   fields.group("goal", scene.goal,
                "Pose wanted in the hand; absent coordinates are free.",
                [](auto& f, Goal& goal) { visit_goal(f, goal); });
+  fields.group("calibration", scene.calibration,
+               "What measurements said, beside the values that they changed; written by "
+               "`prehensile calibrate`. Absent: not calibrated.",
+               [](auto& f, CalibrationRecord& record) { visit_calibration(f, record); });
   fields.group(
       "uncertainty", scene.uncertainty,
       "What is not known exactly: `plan --robust` and `check --samples` use it.",

@@ -46,9 +46,9 @@ std::string digest_of(const std::string& text) {
 
 }  // namespace
 
-SceneFile parse_scene(const std::string& text, const std::string& label,
-                      const std::vector<std::string>& overrides,
-                      const std::filesystem::path& folder) {
+Scene parse_scene_alone(const std::string& text, const std::string& label,
+                        const std::vector<std::string>& overrides,
+                        const std::filesystem::path& folder) {
   Faults faults(label, overrides);
   if (text.size() > internal::kLargestScene) {
     faults.fail({}, "",
@@ -58,11 +58,19 @@ SceneFile parse_scene(const std::string& text, const std::string& label,
   Value root = internal::parse_yaml(text, faults);
   internal::apply_overrides(root, overrides, faults);
   internal::add_mass_beside_mesh(root, folder, faults);
-  SceneFile file;
-  internal::FieldReader::read(root, "", faults, file.scene, kVisit);
-  internal::load_mesh(file.scene, root, folder, faults);
-  add_faults_of_values(file.scene, root, faults);
+  Scene scene;
+  internal::FieldReader::read(root, "", faults, scene, kVisit);
+  internal::load_mesh(scene, root, folder, faults);
+  add_faults_of_values(scene, root, faults);
   faults.raise();
+  return scene;
+}
+
+SceneFile parse_scene(const std::string& text, const std::string& label,
+                      const std::vector<std::string>& overrides,
+                      const std::filesystem::path& folder) {
+  SceneFile file;
+  file.scene = parse_scene_alone(text, label, overrides, folder);
   file.text = text;
   file.digest = digest_of(scene_to_yaml(file.scene));
   return file;

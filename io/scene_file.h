@@ -36,6 +36,11 @@ SceneFile parse_scene(const std::string& text, const std::string& label,
                       const std::vector<std::string>& overrides = {},
                       const std::filesystem::path& folder = {});
 
+/// The scene alone, for many overrides of one text: the digest costs as much again.
+Scene parse_scene_alone(const std::string& text, const std::string& label,
+                        const std::vector<std::string>& overrides = {},
+                        const std::filesystem::path& folder = {});
+
 /// A complete scene file, every field written out.
 std::string scene_to_yaml(const Scene& scene);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "scene/lying_prism.h"
+
 namespace prehensile {
 namespace {
 
@@ -67,6 +69,15 @@ CrossSectionModel make_cross_section(const Scene& scene) {
   return section;
 }
 
+LyingPrism make_prism(const PrismShape& shape, const Model& model) {
+  LyingPrism prism;
+  prism.section = shape.outline;
+  if (shape.axis == Axis::kY) std::swap(prism.axis, prism.lateral);
+  prism.com = {prism.lateral.dot(model.p_OCom), model.z_OCom};
+  prism.length = shape.thickness;
+  return prism;
+}
+
 std::vector<std::string> load_shifts_of(const Scene& scene) {
   std::vector<std::string> found;
   if (scene.g_Wz != 0.0) found.emplace_back("gravity along the closing direction");
@@ -119,7 +130,12 @@ void explain(const Scene& scene, Model& model) {
   };
   explain_level(scene, model);
   if (scene.g_W.isZero() && scene.g_Wz == 0.0) say("gravity wrench", "gravity is zero");
-  if (!model.cross_section) say("roll angle and cross-section", "the object cannot roll");
+  if (model.prism) {
+    say("roll angle in plans",
+        "a prism rolls over its edges: query push follows that, plans do not use it");
+  } else if (!model.cross_section) {
+    say("roll angle and cross-section", "the object cannot roll");
+  }
   if (model.contacts.empty()) {
     say("planar pushes", scene.pushers.empty() ? "the scene has no pusher"
                                                : "no pusher lies flush with a face");
@@ -194,6 +210,9 @@ Model prepare(const Scene& scene, const PrepareOptions& options) {
   model.L = longer_side(model.outline);
   model.half_thickness = half_thickness(scene.object.shape);
   if (can_roll(scene.object)) model.cross_section = make_cross_section(scene);
+  if (const PrismShape* prism = lying_prism(scene.object.shape)) {
+    model.prism = make_prism(*prism, model);
+  }
   explain(scene, model);
   return model;
 }

@@ -54,6 +54,15 @@ struct Decision {
   std::string why;
 };
 
+/// A prism that lies in the pad plane, between the jaws.
+struct LyingPrism {
+  std::vector<Vec2> section;  ///< [m] (lateral axis, z), convex, counter-clockwise
+  Vec2 com = Vec2::Zero();    ///< [m] centre of mass in the section
+  Vec2 axis = {1.0, 0.0};     ///< in the pad plane of O
+  Vec2 lateral = {0.0, 1.0};  ///< likewise
+  double length = 0.0;        ///< [m]
+};
+
 struct PrepareOptions {
   int points_per_pad = 16;  ///< quadrature of an unclipped pad: 1, 4, 8, 16, 32 or 64
 };
@@ -84,6 +93,10 @@ struct Model {
 
   /// Rolling; absent unless the object is round and lies between the jaws.
   std::optional<CrossSectionModel> cross_section;
+
+  /// Rolling over edges: section (scene/lying_prism.h), present for a prism that lies in
+  /// the pad plane. Its roll is no dimension of the planner's state.
+  std::optional<LyingPrism> prism;
 
   std::vector<Decision> decisions;
 

@@ -1,7 +1,8 @@
 /// Steps of an integrator for two coordinates. A `BaseStep` is one step of a method
-/// (dormand_prince.h, rosenbrock.h); a `DoubledStep` covers the same stretch by one base
-/// step and by two of half the length: what they differ by tells the error of the two,
-/// which is the one that is kept.
+/// (dormand_prince.h, rosenbrock.h); a `DoubledStep` covers a stretch by two base steps
+/// of half the length. Their error is told by what they differ by from one base step of
+/// the whole length (`doubled`, for stiff methods), or, for less work, by the rates at
+/// two places of the polynomial through them (`halved` and `judge_halves`).
 #pragma once
 
 #include <algorithm>
@@ -34,9 +35,11 @@ struct DoubledStep {
   Vec2 rate = Vec2::Zero();  ///< rate there
   Vec2 rate_middle = Vec2::Zero();
   Vec2 rate_end = Vec2::Zero();
-  Vec2 error = Vec2::Zero();  ///< of y_end, made in this step
-  bool gave_up = false;       ///< only the embedded error of the whole step is known
-  bool is_smooth = true;      ///< the rate had no kink that errors would show
+  Vec2 error = Vec2::Zero();     ///< of y_end, made in this step
+  bool gave_up = false;          ///< only the embedded error of the whole step is known
+  Vec2 embedded = Vec2::Zero();  ///< size of the halves' own errors, of the lower order
+  Vec2 defect = Vec2::Zero();    ///< by how much state and rates inside disagree
+  bool is_smooth = true;      ///< of `doubled`: errors fall with the method's own order
   Vec2 probe = Vec2::Zero();  ///< a change of state and what it does to the rate
   Vec2 probe_rate = Vec2::Zero();
 
@@ -76,17 +79,16 @@ struct DoubledStep {
 /// Fills `step` from step.s, step.h, step.y and step.rate. `method(rate, base)` fills a
 /// base step and returns the s at which there is no rate, or infinity; so does this.
 /// `end_rate` is called last, at the end of the step. `order` is the power of its length
-/// with which the error of a base step falls, `is_stiff` whether that holds only for its
-/// slow part.
+/// with which the error of a base step falls, of its slow part: that of a stiff part
+/// falls with the second, and its embedded error says little.
 ///
 /// `is_hopeless(error)` is asked about the embedded error of the whole step, before its
 /// halves are taken: if so they are not, and `gave_up` is set.
 ///
-/// Where the rate has a kink the error falls more slowly, which the embedded errors of
-/// the base steps show: then the difference itself counts, or those errors.
+/// Which of the two it is shows in the embedded errors of the base steps.
 template <class Method, class Rate, class EndRate, class Hopeless>
 double doubled(const Method& method, const Rate& rate, const EndRate& end_rate,
-               const Hopeless& is_hopeless, int order, bool is_stiff, DoubledStep& step) {
+               const Hopeless& is_hopeless, int order, DoubledStep& step) {
   constexpr double kDone = std::numeric_limits<double>::infinity();
   constexpr double kOfEmbedded = 0.1;  // a step's own error is seldom less
   BaseStep whole;
@@ -123,17 +125,62 @@ double doubled(const Method& method, const Rate& rate, const EndRate& end_rate,
   const Vec2 difference = whole.y_end - step.y_end;
   const double size = difference.norm();
   step.is_smooth = whole.error.norm() >= 0.4 * (1 << (order - 2)) * embedded;
-  double scale = step.is_smooth ? 1.0 / ((1 << (order - 1)) - 1.0) : 1.0;
-  double least = (step.is_smooth ? kOfEmbedded : 1.0) * embedded;
-  if (is_stiff && !step.is_smooth) {
-    // The order of a stiff part falls to two; its embedded error says little.
-    scale = 1.0 / 3.0;
-    least = 0.0;
-    step.is_smooth = true;
-  }
+  const double scale = step.is_smooth ? 1.0 / ((1 << (order - 1)) - 1.0) : 1.0 / 3.0;
+  const double least = step.is_smooth ? kOfEmbedded * embedded : 0.0;
   step.error = size > 0.0 ? Vec2(std::max(scale, least / size) * difference)
                           : Vec2(first.error + last.error);
   return kDone;
+}
+
+/// Where a step that is taken in halves alone is looked at: with its ends and its middle
+/// these are the nodes of Lobatto's quadrature with five points.
+inline constexpr std::array<double, 2> kQuadratureNodes{0.17267316464601143,
+                                                        0.82732683535398857};
+
+/// Fills `step` as `doubled` does, but takes the two halves only; their error is left to
+/// `judge_halves`. `is_hopeless(error)` is asked about the embedded error of the first.
+template <class Method, class Rate, class EndRate, class Hopeless>
+double halved(const Method& method, const Rate& rate, const EndRate& end_rate,
+              const Hopeless& is_hopeless, DoubledStep& step) {
+  constexpr double kDone = std::numeric_limits<double>::infinity();
+  BaseStep first;
+  first.s = step.s;
+  first.h = 0.5 * step.h;
+  first.y = step.y;
+  first.rate = step.rate;
+  if (const double failed = method(rate, first); failed != kDone) return failed;
+  step.error = first.error;
+  step.gave_up = is_hopeless(first.error);
+  if (step.gave_up) return kDone;
+  BaseStep last;
+  last.s = step.s + first.h;
+  last.h = step.h - first.h;
+  last.y = first.y_end;
+  last.rate = first.rate_end;
+  const auto rate_to_end = [&](double s, const Vec2& y, Vec2& out) {
+    return last.ends ? end_rate(s, y, out) : rate(s, y, out);
+  };
+  if (const double failed = method(rate_to_end, last); failed != kDone) return failed;
+  step.y_middle = first.y_end;
+  step.rate_middle = first.rate_end;
+  step.y_end = last.y_end;
+  step.rate_end = last.rate_end;
+  step.probe = last.probe;
+  step.probe_rate = last.probe_rate;
+  step.embedded = first.error.cwiseAbs() + last.error.cwiseAbs();
+  return kDone;
+}
+
+/// The error of `halved`, from the rates at `kQuadratureNodes` of its polynomial: what
+/// the end lacks of the integral of these rates, which is one order closer. What rates
+/// and polynomial differ by in each node shows a kink, whose errors may cancel in the
+/// end.
+inline void judge_halves(const std::array<Vec2, 2>& rates, DoubledStep& step) {
+  constexpr double kWeight = 49.0 / 180.0;
+  const std::array<Vec2, 2> lack{rates[0] - step.rate_at(kQuadratureNodes[0]),
+                                 rates[1] - step.rate_at(kQuadratureNodes[1])};
+  step.error = -kWeight * step.h * (lack[0] + lack[1]);
+  step.defect = kWeight * step.h * (lack[0].cwiseAbs() + lack[1].cwiseAbs());
 }
 
 }  // namespace prehensile

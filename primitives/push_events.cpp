@@ -13,9 +13,12 @@ using enum PushInstant::Search;
 /// Length below which a limit does not count as crossed [m].
 constexpr double kRoundOff = 1e-12;
 
-/// Share of a step to which its own events are located: rates do not jump there, so that
-/// events cost no accuracy, and limits are met as closely as numbers allow.
+/// Share of a step to which limits are met: as closely as numbers allow.
 constexpr double kResolution = 1e-11;
+
+/// Share of the wanted location to which changes of contact mode are located. Rates do
+/// not jump there, so that they cost less than that.
+constexpr double kModeResolution = 0.01;
 
 /// Where in a step the defect of its polynomial changes fastest.
 constexpr double kSteepest = 0.09;
@@ -74,8 +77,12 @@ Crossing PushRun::first_crossing() {
     return found ? mode_margin() : -1.0;
   };
   instant_.set_aside();
-  const double at =
-      falling_root(margin, low, margin_at_low, high, margin_at_high, kResolution);
+  const double resolution =
+      std::max(kResolution, kModeResolution * control_.location() / step_.h);
+  // Beyond the root, where the next mode holds already.
+  const double at = std::min(
+      high, falling_root(margin, low, margin_at_low, high, margin_at_high, resolution) +
+                0.5 * resolution);
   instant_.bring_back();
   if (at < first.at) first = {at, {}};
   return first;

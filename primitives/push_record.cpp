@@ -28,6 +28,11 @@ void PushRecord::add(EventKind kind, double s) {
   transition_.events[transition_.event_count++] = {kind, s};
 }
 
+void PushRecord::add_passing(EventKind kind, double s) {
+  // One place is kept for the event that ends the push.
+  if (transition_.event_count < Transition::kMaxEvents - 1) add(kind, s);
+}
+
 void PushRecord::stop(const Obstacle& obstacle, double s) {
   transition_.status = obstacle.status;
   transition_.reason = obstacle.reason;

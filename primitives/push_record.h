@@ -28,6 +28,9 @@ class PushRecord {
   /// than there is room for is stopped.
   void add(EventKind kind, double s);
 
+  /// An event of a push that may have any number of them: kept while there is room.
+  void add_passing(EventKind kind, double s);
+
   /// Forgets the last event, which turned out not to be one.
   void take_back() { --transition_.event_count; }
 

@@ -4,8 +4,8 @@
 /// its end: rates are smooth there, so steps are long, and where the mode ends is a root
 /// of its margin along the step. While a line sticks flush to the face the object rides:
 /// its motion is known, and bounds on the pusher's forces say how far nothing can happen
-/// (ride_bound.h). Otherwise steps are doubled (integration_step.h), by an explicit
-/// method or a stiff one. Internal to the primitives layer.
+/// (ride_bound.h). Otherwise steps are taken in halves (integration_step.h), by an
+/// explicit method or a stiff one. Internal to the primitives layer.
 #pragma once
 
 #include <algorithm>
@@ -64,7 +64,7 @@ class PushRun {
   static constexpr double kLocationShare = 0.1;
 
   /// Longest integrated step over the wanted spacing of checks: the mode is looked at in
-  /// fifteen places of it. Pads, unlike the ellipsoid, have kinks to be found as well.
+  /// twelve places of it. Pads, unlike the ellipsoid, have kinks to be found as well.
   static double longest_step(const TransitionOptions& options) {
     const bool is_smooth = options.friction_model == FrictionModel::kEllipsoid;
     return std::min(1.0, (is_smooth ? 20.0 : 10.0) * options.max_step);
@@ -92,7 +92,10 @@ class PushRun {
   bool rate_in_mode(double s, const Vec2& q, Vec2& out);
   bool rate_at_end(double s, const Vec2& q, Vec2& out);
   void look_inside();
-  void doubt_step(bool kink);
+  template <class Rate>
+  double look_at_nodes(const Rate& rate);
+  double halved_error() const;
+  void doubt_stiff_step(bool kink);
   double length_of(const Vec2& error) const;
   double growth(double share) const;
   void watch_stiffness(bool accepted);

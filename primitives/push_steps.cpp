@@ -22,20 +22,25 @@ constexpr double kNotStiff = 1.0;
 /// Longest step with an overhanging pad over the wanted spacing of checks.
 constexpr double kOverhangStep = 4.0;
 
-/// Embedded over allowed error of a whole step whose halves need not be tried, and over
-/// the error that these would have.
+/// Embedded over allowed error of the first part of a step whose rest need not be tried,
+/// and over the error that the step would have.
 constexpr double kHopeless = 500.0;
 constexpr double kHopelessIsMore = 100.0;
 
-/// Allowed over computed error of a step: smooth, and with a kink.
-constexpr double kDoubt = 1.5;
-constexpr double kRoughness = 3.0;
+/// Counted over computed error of a step in halves: smooth, and with a kink, where the
+/// error is random; how much of the embedded errors the defect is with a kink; and the
+/// share of the defect that counts as error where the defects of both places cancel.
+constexpr double kDoubtOfHalves = 1.3;
+constexpr double kDoubtOfKink = 2.5;
+constexpr double kKink = 0.3;
+constexpr double kOfDefect = 0.02;
 
-/// Reported over allowed error of a step with a kink, where the error is random.
-constexpr double kDoubtOfRough = 9.0;
+/// Counted over computed error of a stiff step, and of one with a kink.
+constexpr double kDoubtOfStiff = 1.5;
+constexpr double kDoubtOfStiffKink = 9.0;
 
-/// A place in a step that is far from all its stages, and the share of the change that
-/// its rate would make over the step that counts as error.
+/// A place in a stiff step that is far from all its stages, and the share of the change
+/// that its rate would make over the step that counts as error.
 constexpr double kUnseen = 0.35;
 constexpr double kOfUnseen = 0.015;
 
@@ -85,12 +90,13 @@ bool PushRun::integrate() {
       known_at = base.s;
       return rosenbrock(f, at_start, base);
     };
-    failed_at = doubled(method, rate, end_rate, is_hopeless, kStiffOrder, true, step_);
+    failed_at = doubled(method, rate, end_rate, is_hopeless, kStiffOrder, step_);
   } else {
     const auto method = [](const auto& f, BaseStep& base) {
       return dormand_prince(f, base);
     };
-    failed_at = doubled(method, rate, end_rate, is_hopeless, kOrder, false, step_);
+    failed_at = halved(method, rate, end_rate, is_hopeless, step_);
+    if (failed_at == kNever && !step_.gave_up) failed_at = look_at_nodes(rate);
   }
   if (failed_at != kNever) {
     block(failed_at);
@@ -100,21 +106,47 @@ bool PushRun::integrate() {
     (void)control_.accepts(step_.h, length_of(step_.error) / kHopelessIsMore, kOrder);
     return false;
   }
-  step_error_ = (step_.is_smooth ? kDoubt : kRoughness) * length_of(step_.error);
+  step_error_ = stiff_ ? kDoubtOfStiff * length_of(step_.error) : halved_error();
   const bool accepted =
       control_.accepts(step_.h, step_error_, stiff_ ? kStiffOrder : kOrder);
   watch_stiffness(accepted);
   if (!accepted) return false;
-  doubt_step(low_pivot != high_pivot);
+  if (stiff_) doubt_stiff_step(low_pivot != high_pivot);
   look_inside();
   return true;
 }
 
-/// What the step's error may be, with what its computation cannot see: a kink between
+/// The rates at the places that tell the error of a step taken in halves; a place without
+/// motion, or infinity.
+template <class Rate>
+double PushRun::look_at_nodes(const Rate& rate) {
+  instant_.set_aside();
+  double failed_at = kNever;
+  std::array<Vec2, 2> rates;
+  for (std::size_t i = 0; i < 2 && failed_at == kNever; ++i) {
+    const double x = kQuadratureNodes[i];
+    const double s = s_ + x * step_.h;
+    if (!rate(s, step_.at(x), rates[i])) failed_at = s;
+  }
+  instant_.bring_back();
+  if (failed_at == kNever) judge_halves(rates, step_);
+  return failed_at;
+}
+
+/// What the error of a step taken in halves is counted as. A kink shows where state and
+/// rates inside disagree by as much as the embedded errors; then the error is random.
+double PushRun::halved_error() const {
+  const double defect = length_of(step_.defect);
+  const bool kink = defect > kKink * length_of(step_.embedded);
+  return (kink ? kDoubtOfKink : kDoubtOfHalves) *
+         std::max(length_of(step_.error), kOfDefect * defect);
+}
+
+/// What a stiff step's error may be, with what its computation cannot see: a kink between
 /// the stages, which a place that no stage looked at may show, and the random size of the
 /// error where there is one.
-void PushRun::doubt_step(bool kink) {
-  if (kink || !step_.is_smooth) step_error_ *= kDoubtOfRough;
+void PushRun::doubt_stiff_step(bool kink) {
+  if (kink) step_error_ *= kDoubtOfStiffKink;
   instant_.set_aside();
   Vec2 rate;
   if (rate_in_mode(s_ + kUnseen * step_.h, step_.at(kUnseen), rate)) {

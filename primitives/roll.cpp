@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mechanics/linear_program.h"
 #include "primitives/push_record.h"
+#include "primitives/roll_prism.h"
+#include "primitives/roll_support.h"
 
 namespace prehensile {
 namespace {
@@ -21,9 +22,7 @@ Vec2 axis_of(const Model& model) {
 
 RollSection refused(std::string_view reason) { return {.reason = reason}; }
 
-/// Whether lines of contact exist that keep the object from tilting and yawing: places of
-/// the resultants on both pads and on the support, along t from the finger axis, such
-/// that the moments about z and about n vanish.
+/// Places on both pads and on the support that keep the object from tilting and yawing.
 bool lines_suffice(const Model& model, const PushContact& contact, const Grasp& grasp,
                    const CrossSectionInstant& instant, double weight) {
   const ContactPoints pad = model.region.at(grasp.X_HO);
@@ -35,37 +34,17 @@ bool lines_suffice(const Model& model, const PushContact& contact, const Grasp& 
     pad_low = j == 0 ? along : std::min(pad_low, along);
     pad_high = j == 0 ? along : std::max(pad_high, along);
   }
-  const double finger = contact.t.dot(finger_in_object(grasp.X_HO));
-  const PushContact::Segment support = contact.segment(0.0);
-  const std::array<double, 3> low = {pad_low, pad_low, contact.t.dot(support.a) - finger};
-  const std::array<double, 3> high = {pad_high, pad_high,
-                                      contact.t.dot(support.b) - finger};
-  const double arm_of_weight = contact.t.dot(model.p_OCom) - finger;
-
-  // Unknowns: places above `low`, in units of the object's length and the load scale.
-  const double length = cylinder_of(model).length;
   const auto& normal = instant.normal_force;
   const auto& tangential = instant.tangential_force;
-  const double force = std::max({normal[kJaw1], normal[kJaw2], normal[kSheet]});
-  const std::array<double, 3> tilt = {tangential[kJaw1], tangential[kJaw2],
-                                      normal[kSheet]};
-  const std::array<double, 3> yaw = {normal[kJaw1], -normal[kJaw2], tangential[kSheet]};
-  LinearProgram program(3);
-  LinearProgram::Point& tilts = program.add_row(LinearProgram::Relation::kEqual, 0.0);
-  LinearProgram::Point& yaws = program.add_row(LinearProgram::Relation::kEqual, 0.0);
-  double tilt_right = weight * arm_of_weight;
-  double yaw_right = 0.0;
-  for (int i = 0; i < 3; ++i) {
-    tilts[i] = tilt[i] / force;
-    yaws[i] = yaw[i] / force;
-    tilt_right -= tilt[i] * low[i];
-    yaw_right -= yaw[i] * low[i];
-    program.add_row(LinearProgram::Relation::kAtMost, (high[i] - low[i]) / length)[i] =
-        1.0;
-  }
-  program.right[0] = tilt_right / (force * length);
-  program.right[1] = yaw_right / (force * length);
-  return find_point(program).feasible();
+  RollLoads loads;
+  loads.along_z = {normal[kJaw1], -normal[kJaw2], tangential[kSheet]};
+  loads.along_u = {tangential[kJaw1], tangential[kJaw2], normal[kSheet]};
+  loads.low = {pad_low, pad_low, 0.0};
+  loads.high = {pad_high, pad_high, 0.0};
+  loads.weight = weight;
+  loads.length = cylinder_of(model).length;
+  add_support(model, contact, grasp, loads);
+  return lines_suffice(loads);
 }
 
 /// The support sticks and the object turns in place between the jaws.
@@ -153,8 +132,12 @@ std::string_view refusal(const RollSection& section, const Grasp& start, const R
 
 RollSection roll_section(const Model& model, int contact_index,
                          const Grasp& grasp) noexcept {
+  if (model.prism)
+    return refused("a prism rolls over its edges, not about an axis (query push)");
   if (!model.cross_section)
-    return refused("the object is not a cylinder held on its curved side");
+    return refused(
+        "the object is not a cylinder held on its curved side, nor a prism that lies "
+        "between the jaws");
   if (contact_index < 0 || contact_index >= static_cast<int>(model.contacts.size()))
     return refused("there is no such contact");
   const PushContact& contact = model.contacts[contact_index];
@@ -182,6 +165,7 @@ RollSection roll_section(const Model& model, int contact_index,
 Transition apply_roll(const Model& model, const Grasp& start, const Roll& roll,
                       const TransitionOptions& options,
                       std::vector<Sample>* trace) noexcept {
+  if (model.prism) return apply_prism_roll(model, start, roll, options, trace);
   PushRecord record(options.certificate_tolerance, trace);
   const RollSection section = roll_section(model, roll.contact, start);
   const std::string_view reason = refusal(section, start, roll, options);

@@ -5,6 +5,7 @@
 #include "primitives/linear_push.h"
 #include "primitives/roll.h"
 #include "primitives/seat.h"
+#include "scene/lying_prism.h"
 
 namespace prehensile {
 namespace {
@@ -37,6 +38,10 @@ std::string_view refusal(const Model& model, const Grasp& start, const LinearPus
   if (!(guard.angle > 0.0 && guard.distance > 0.0)) return "the guard is not positive";
   if (std::abs(push.e.norm() - 1.0) > 1e-9) return "the direction is not a unit vector";
   if (push.travel == 0.0 && push.turn == 0.0) return "the pusher does not move";
+  if (model.prism && !is_same_section(model.prism->section, start.psi)) {
+    return "the prism has rolled to an attitude for which its sides in the pad plane are "
+           "not known";
+  }
   if (!pads_on_object(model, start.X_HO)) return "the pads are not on the object";
 
   const SeatGeometry geometry(model, model.contacts[push.contact], push.place);
@@ -97,6 +102,8 @@ std::string_view name(EventKind kind) {
       return "corner";
     case EventKind::kFlush:
       return "flush";
+    case EventKind::kOverEdge:
+      return "over an edge";
     case EventKind::kPusherOffFace:
       return "pusher off face";
     case EventKind::kPadOffFace:
@@ -105,6 +112,8 @@ std::string_view name(EventKind kind) {
       return "contact lost";
     case EventKind::kGravityLost:
       return "gravity lost";
+    case EventKind::kTips:
+      return "tips by itself";
     case EventKind::kGuard:
       return "guard";
   }

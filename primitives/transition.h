@@ -25,7 +25,7 @@ enum class TransitionStatus {
   kLeftGuard,       ///< valid motion, but no longer the named primitive; stopped there
   kPusherLost,      ///< the pusher left the face or the object left the pusher
   kPadLost,         ///< the centre of the pads left the face
-  kFalls,           ///< the grasp no longer holds gravity
+  kFalls,           ///< the grasp no longer holds gravity, or the object tips by itself
   kJammed,          ///< no motion possible
   kAmbiguous,       ///< two motions possible; stopped rather than guess
   kUncertified,     ///< an instant failed its certificate
@@ -39,10 +39,12 @@ enum class EventKind {
   kSlip,           ///< the contact begins to slip
   kCorner,         ///< one end of a flush line lifts
   kFlush,          ///< a tipped line lies on the face again
+  kOverEdge,       ///< a prism rolled over an edge: its next side lies on the support
   kPusherOffFace,  ///< ends the push, like all that follow
   kPadOffFace,
   kContactLost,
   kGravityLost,
+  kTips,  ///< weight and grip tip a prism on, faster than the support moves
   kGuard,
 };
 std::string_view name(EventKind kind);
@@ -81,6 +83,7 @@ struct Sample {
   double normal_force = kNan;      ///< [N]
   double tangential_force = kNan;  ///< [N]
   double slip_rate = kNan;         ///< object relative to pusher, per unit of s [m]
+  double opening = kNan;           ///< [m] between the pads; rolls of a prism only
   InstantStatus status = InstantStatus::kNotRun;
   double certificate = kNan;  ///< worst entry
 };

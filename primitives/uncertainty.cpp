@@ -66,6 +66,16 @@ std::vector<Unknown> UncertaintyBox::active() const {
   return out;
 }
 
+UncertaintyBox box_of(const CalibrationRecord& record) {
+  constexpr double kMostShare = 0.95;
+  UncertaintyBox box;
+  box[Unknown::kFriction] = std::min(kMostShare, record.friction);
+  box[Unknown::kFingerFriction] = std::min(kMostShare, record.finger_friction);
+  box[Unknown::kTorqueRadius] = std::min(kMostShare, record.torque_radius);
+  box[Unknown::kPlace] = box[Unknown::kTravel] = record.place;
+  return box;
+}
+
 UncertaintyBox usual_box() {
   UncertaintyBox box;
   box[Unknown::kFriction] = 0.10;

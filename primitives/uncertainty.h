@@ -56,6 +56,9 @@ struct UncertaintyBox {
   std::vector<Unknown> active() const;
 };
 
+/// What stayed uncertain after a calibration.
+UncertaintyBox box_of(const CalibrationRecord& record);
+
 /// The box that plans survive if nothing else is said: frictions of the pushers 10 %, of
 /// the fingers 5 %, grip force 3 %, mass 1 %, torque radius 10 %, centre of mass 0.7 mm,
 /// place of the pusher 1 mm and its angle 0.5 deg, object in the hand 0.5 mm.

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include <Eigen/LU>
+
 #include "mechanics/limit_surface.h"
 #include "mechanics/planar_instant.h"
 #include "scene/outline.h"
@@ -211,6 +213,34 @@ Plate uniform_plate(const std::vector<Vec2>& outline, int points) {
   const Vec2 centre = plate.centre();
   for (Vec2& p : plate.support) p = centre + spread * (p - centre);
   return plate;
+}
+
+Plate loaded_plate(const Plate& plate, double edge_load) {
+  constexpr double kLeast = 0.02;
+  const Vec2 centre = plate.centre();
+  const std::size_t n = plate.support.size();
+  double mean_square = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    mean_square += plate.shares[i] * (plate.support[i] - centre).squaredNorm();
+  }
+  Plate out = plate;
+  Vec2 moment = Vec2::Zero();
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 r = plate.support[i] - centre;
+    out.shares[i] *=
+        std::max(kLeast, 1.0 + edge_load * (r.squaredNorm() / mean_square - 1.0));
+    moment += out.shares[i] * r;
+    spread += out.shares[i] * r * r.transpose();
+  }
+  const Vec2 tilt = -spread.inverse() * moment;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    out.shares[i] *= std::max(kLeast, 1.0 + tilt.dot(plate.support[i] - centre));
+    sum += out.shares[i];
+  }
+  for (double& share : out.shares) share /= sum;
+  return out;
 }
 
 TipGap tip_gap(const Plate& plate, const Vec2& p_OTip, double radius) {

@@ -26,6 +26,11 @@ struct Plate {
 /// that give them the torque radius of the outline.
 Plate uniform_plate(const std::vector<Vec2>& outline, int points);
 
+/// The same with pressure that grows towards the edge (edge_load > 0) or the middle: the
+/// factor max(0.02, 1 + p (r^2 / mean r^2 - 1)) on each share, -1 <= p <= 3, tilted so
+/// that the centre of pressure stays, as statics demands under a centre of mass.
+Plate loaded_plate(const Plate& plate, double edge_load);
+
 enum class SupportModel {
   kPoints,     ///< exact friction of the points (solve_planar)
   kEllipsoid,  ///< the ellipsoid of the same centre and torque radius

@@ -4,6 +4,8 @@
 #include <limits>
 #include <numbers>
 
+#include "scene/lying_prism.h"
+
 namespace prehensile {
 namespace {
 
@@ -43,7 +45,11 @@ struct OutlineOf {
     }
     return round_outline(cylinder.radius);
   }
-  std::vector<Vec2> operator()(const PrismShape& prism) const { return prism.outline; }
+  std::vector<Vec2> operator()(const PrismShape& prism) const {
+    if (prism.axis == Axis::kZ) return prism.outline;
+    const SectionExtent extent = extent_of(prism.outline);
+    return lying_rectangle(prism, extent.low, extent.high);
+  }
   std::vector<Vec2> operator()(const SolidShape& solid) const { return solid.outline; }
   std::vector<Vec2> operator()(const MeshShape&) const { return {}; }
 };
@@ -86,7 +92,9 @@ struct HalfThickness {
   double operator()(const CylinderShape& cylinder) const {
     return cylinder.axis == Axis::kZ ? 0.5 * cylinder.length : cylinder.radius;
   }
-  double operator()(const PrismShape& prism) const { return 0.5 * prism.thickness; }
+  double operator()(const PrismShape& prism) const {
+    return prism.axis == Axis::kZ ? 0.5 * prism.thickness : extent_of(prism.outline).top;
+  }
   double operator()(const SolidShape& solid) const { return 0.5 * solid.thickness; }
   double operator()(const MeshShape&) const { return 0.0; }
 };
@@ -98,6 +106,10 @@ std::vector<Vec2> outline_of(const Shape& shape) {
 }
 
 std::vector<Vec2> pad_face_of(const Shape& shape) {
+  if (const PrismShape* lying = lying_prism(shape)) {
+    const SectionExtent extent = extent_of(lying->outline);
+    return lying_rectangle(*lying, extent.face_low, extent.face_high);
+  }
   const auto* solid = std::get_if<SolidShape>(&shape);
   return solid ? solid->pad_face : outline_of(shape);
 }
@@ -108,6 +120,7 @@ std::vector<Face> faces_of(const Shape& shape) {
   const std::vector<Vec2> outline = outline_of(shape);
   const double tolerance = kParallel * longer_side(outline);
   const auto* solid = std::get_if<SolidShape>(&shape);
+  const PrismShape* lying = lying_prism(shape);
   const double half = half_thickness(shape);
   std::vector<Face> faces;
   for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -124,6 +137,12 @@ std::vector<Face> faces_of(const Shape& shape) {
     face.z_high = solid ? solid->heights[i].y() : half;
     if (cylinder && std::abs(face.n[static_cast<int>(cylinder->axis)]) < 0.5) {
       face.z_low = face.z_high = 0.0;  // a round side is met along one line
+    }
+    const int lateral = lying && lying->axis == Axis::kX ? 1 : 0;
+    if (lying && std::abs(face.n[lateral]) > 0.5) {
+      const Vec2 heights = side_heights(lying->outline, face.n[lateral] < 0.0);
+      face.z_low = heights.x();
+      face.z_high = heights.y();
     }
     faces.push_back(face);
   }
@@ -235,14 +254,6 @@ double reach_along_z(const Shape& shape) {
   return reach;
 }
 
-Vec2 centre_of_mass(const Object& object) {
-  if (object.p_OCom) return *object.p_OCom;
-  if (const auto* solid = std::get_if<SolidShape>(&object.shape)) {
-    return solid->centroid.head<2>();
-  }
-  return properties_of(outline_of(object.shape)).centroid;
-}
-
 namespace {
 
 /// Of a body whose coordinates have the second moments `spread` about its centroid, per
@@ -268,6 +279,18 @@ Homogeneous homogeneous(const Shape& shape) {
         cylinder->length * cylinder->length / 12.0;
     return body;
   }
+  if (const PrismShape* lying = lying_prism(shape)) {
+    const OutlineProperties section = properties_of(lying->outline);
+    const int lateral = lying->axis == Axis::kX ? 1 : 0;
+    body.centroid[lateral] = section.centroid.x();
+    body.centroid.z() = section.centroid.y();
+    body.spread(lateral, lateral) = section.second(0, 0) / section.area;
+    body.spread(2, 2) = section.second(1, 1) / section.area;
+    body.spread(lateral, 2) = body.spread(2, lateral) =
+        section.second(0, 1) / section.area;
+    body.spread(1 - lateral, 1 - lateral) = lying->thickness * lying->thickness / 12.0;
+    return body;
+  }
   const OutlineProperties outline = properties_of(outline_of(shape));
   const double half = half_thickness(shape);
   body.centroid.head<2>() = outline.centroid;
@@ -277,6 +300,14 @@ Homogeneous homogeneous(const Shape& shape) {
 }
 
 }  // namespace
+
+Vec2 centre_of_mass(const Object& object) {
+  if (object.p_OCom) return *object.p_OCom;
+  const bool is_flat =
+      !lying_prism(object.shape) && !std::holds_alternative<SolidShape>(object.shape);
+  if (is_flat) return properties_of(outline_of(object.shape)).centroid;
+  return homogeneous(object.shape).centroid.head<2>();
+}
 
 double height_of_mass(const Object& object) {
   return object.p_OCom ? object.z_OCom : homogeneous(object.shape).centroid.z();

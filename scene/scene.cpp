@@ -9,6 +9,7 @@
 #include <Eigen/Cholesky>
 
 #include "scene/contact_region.h"
+#include "scene/lying_prism.h"
 #include "scene/outline.h"
 
 namespace prehensile {
@@ -28,11 +29,7 @@ std::string text(double value) {
 }
 
 std::string text(const Vec2& p) {
-  std::string out = "[";
-  out += text(p.x());
-  out += ", ";
-  out += text(p.y());
-  return out += ']';
+  return std::string("[").append(text(p.x())).append(", ").append(text(p.y())) + ']';
 }
 
 /// Collects faults; a later group of checks runs only if the earlier ones passed.
@@ -94,10 +91,10 @@ void check_solid(Checker& checker, const SolidShape& solid) {
   check_outline(checker, field + ".outline", solid.outline);
   check_outline(checker, field + ".pad_face", solid.pad_face);
   if (solid.heights.size() != solid.outline.size()) {
-    checker.fault(field + ".heights", std::to_string(solid.heights.size()) +
-                                          " members: expected one for " + "each of the " +
-                                          std::to_string(solid.outline.size()) +
-                                          " edges of the outline");
+    std::string what =
+        std::to_string(solid.heights.size()) + " members: expected one for ";
+    what += "each of the " + std::to_string(solid.outline.size());
+    checker.fault(field + ".heights", what + " edges of the outline");
   }
   for (const Vec2& heights : solid.heights) {
     checker.place(field + ".heights", heights);
@@ -128,6 +125,8 @@ void check_object(Checker& checker, const Object& object) {
   } else if (const auto* prism = std::get_if<PrismShape>(&object.shape)) {
     checker.length("object.prism.thickness", prism->thickness);
     check_outline(checker, "object.prism.outline", prism->outline);
+    const std::string fault = checker.clean() ? section_fault(*prism) : std::string();
+    if (!fault.empty()) checker.fault("object.prism.outline", fault);
   } else if (const auto* solid = std::get_if<SolidShape>(&object.shape)) {
     check_solid(checker, *solid);
   } else {
@@ -189,8 +188,7 @@ void check_pad(Checker& checker, const Gripper& gripper, const Object& object) {
   if (thin && can_roll(object)) {
     checker.fault(field,
                   "a line, point or polygon pad on the curved side of a cylinder: "
-                  "expected a disc or a "
-                  "rectangle");
+                  "expected a disc or a rectangle");
   }
 }
 
@@ -239,9 +237,9 @@ void check_faces(Checker& checker, const std::string& path, const Pusher& pusher
     }
     const double room = faces[face].length();
     if (length && !faces[face].on_hull && !(*length <= room)) {
-      checker.fault(path + ".faces", wanted + ": lies in a notch of " + text(room) +
-                                         " m: expected a point or a "
-                                         "line of at most that length");
+      checker.fault(path + ".faces",
+                    wanted + ": lies in a notch of " + text(room) +
+                        " m: expected a point or a line of at most that length");
     }
   }
 }
@@ -339,6 +337,25 @@ void check_goal(Checker& checker, const Goal& goal, bool rolls) {
                    kLongest, "m");
 }
 
+void check_calibration(Checker& checker, const CalibrationRecord& record) {
+  const std::string field = "calibration.";
+  checker.place(field + "registration", record.registration);
+  checker.in_range(field + "friction", record.friction, 0.0, 1.0, "");
+  checker.in_range(field + "finger_friction", record.finger_friction, 0.0, 1.0, "");
+  checker.in_range(field + "torque_radius", record.torque_radius, 0.0, 1.0, "");
+  checker.in_range(field + "place", record.place, 0.0, 1.0, "m");
+  checker.in_range(field + "scatter", record.scatter, 0.0, 1.0, "m");
+  checker.in_range(field + "scatter_angle", record.scatter_angle, 0.0, 4.0, "rad");
+  for (const auto* factors : {&record.factors_50, &record.factors_90}) {
+    if (!*factors) continue;
+    for (const double factor : **factors) {
+      checker.in_range(
+          field + (factors == &record.factors_50 ? "factors_50" : "factors_90"), factor,
+          0.0, 1e3, "");
+    }
+  }
+}
+
 void check_start_is_held(Checker& checker, const Scene& scene) {
   const std::vector<Vec2> face = pad_face_of(scene.object.shape);
   const Vec2 p_OF = finger_in_object(scene.start.X_HO);
@@ -351,11 +368,6 @@ void check_start_is_held(Checker& checker, const Scene& scene) {
 }
 
 }  // namespace
-
-bool can_roll(const Object& object) {
-  const auto* cylinder = std::get_if<CylinderShape>(&object.shape);
-  return cylinder && cylinder->axis != Axis::kZ;
-}
 
 std::vector<Fault> check(const Scene& scene) {
   Checker checker;
@@ -373,6 +385,7 @@ std::vector<Fault> check(const Scene& scene) {
         "the object cannot roll: expected only for a cylinder held on its curved side");
   }
   if (scene.goal) check_goal(checker, *scene.goal, rolls);
+  if (scene.calibration) check_calibration(checker, *scene.calibration);
   if (scene.uncertainty) {
     for (const UncertaintyWidth& w : widths_of(*scene.uncertainty)) {
       checker.in_range("uncertainty." + w.field, w.value, w.least, w.most, w.unit);

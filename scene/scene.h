@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
@@ -31,10 +32,14 @@ struct CylinderShape {
   Axis axis = Axis::kZ;
 };
 
-/// Straight prism along z over a simple polygon in the pad plane of O.
+/// Straight prism over a simple polygon. `axis` kZ: along z, the polygon is the outline
+/// in the pad plane of O. `axis` kX or kY: the prism lies in the pad plane, the polygon
+/// is its convex section (lateral axis, z), see scene/lying_prism.h; the jaws hold two
+/// flat sides of it, and a support can roll it over its edges.
 struct PrismShape {
   std::vector<Vec2> outline;  ///< [m], counter-clockwise, at least 3 vertices
-  double thickness = 0.0;     ///< [m] along z, between the jaws
+  double thickness = 0.0;     ///< [m] along the axis
+  Axis axis = Axis::kZ;
 };
 
 /// A solid body of any form, held at two flat faces that look away from each other; made
@@ -219,6 +224,23 @@ struct Goal {
   GoalTest test = GoalTest::kPerCoordinate;
 };
 
+/// What measurements said about a set-up, beside the values that they changed: written by
+/// `prehensile calibrate`, used by `query spread`.
+struct CalibrationRecord {
+  std::string data;          ///< where the measurements are from
+  std::uint64_t pushes = 0;  ///< how many, or readings
+  /// [m] in H: true place of a pusher minus measured place.
+  Vec2 registration = Vec2::Zero();
+  /// Half widths of what stayed uncertain, 90 %: as shares, 0..1.
+  double friction = 0.0, finger_friction = 0.0, torque_radius = 0.0;
+  double place = 0.0;  ///< [m] of a pusher along the face and towards it, >= 0
+  /// What no parameter explains of where pushes end, measurement included: [m] and [rad].
+  double scatter = 0.0, scatter_angle = 0.0;
+  /// Factors on intervals of the end pose of a push (normal, tangential, angle) that made
+  /// them cover 50 and 90 % of measured pushes; unset: too few were measured.
+  std::optional<Vec3> factors_50, factors_90;
+};
+
 struct Scene {
   std::string name = "scene";
   std::string origin;  ///< where the numbers come from, for people
@@ -230,6 +252,7 @@ struct Scene {
   Overhang overhang = Overhang::kClip;
   Grasp start;
   std::optional<Goal> goal;
+  std::optional<CalibrationRecord> calibration;
   std::optional<Uncertainty> uncertainty;
 };
 

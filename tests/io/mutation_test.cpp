@@ -1,4 +1,5 @@
-/// Damaged files end in BadInput or are valid; nothing else, and never a crash.
+/// Damaged files end in BadInput or are valid; nothing else, and never a crash. With the
+/// meshes of tests/mesh/triangle_mesh_test.cpp the full runs read more than a million.
 #include <gtest/gtest.h>
 
 #include "io/plan_file.h"
@@ -91,7 +92,7 @@ void expect_sound(int times, std::uint64_t seed) {
 
 TEST(Mutations, DamagedFilesNeverCrash) { expect_sound(2000, 6); }
 
-TEST(Mutations, DamagedFilesNeverCrashFull) { expect_sound(200'000, 7); }
+TEST(Mutations, DamagedFilesNeverCrashFull) { expect_sound(360'000, 7); }
 
 }  // namespace
 }  // namespace prehensile::testing

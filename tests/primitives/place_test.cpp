@@ -1,6 +1,7 @@
 #include "primitives/place.h"
 
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -90,6 +91,48 @@ Count check_wishes(std::uint64_t seed, int count) {
     }
   }
   return out;
+}
+
+/// Poses to be reached in one push: every push that is named is done, with a model made
+/// afresh, and must end there.
+Count check_paths(std::uint64_t seed, int count) {
+  Count out;
+  RandomStream stream(seed);
+  for (int i = 0; i < count; ++i) {
+    const Wish wish = random_wish(seed, i, i % 4 != 0);
+    const double way = stream.in(0.5e-3, 5e-3);
+    const PlanarTwist V = way * wish.motion.twist_HO();
+    const PlanarPose from = wish.motion.X_HO;
+    const PlanarPose to{from.x + V[0], from.y + V[1], from.theta + V[2]};
+    const PlaceOptions options{.grip_low = i % 3 == 0 ? 5.0 : 0.0,
+                               .grip_high = i % 3 == 0 ? 80.0 : 0.0};
+    const PlaceAnswer answer = find_place(wish.model, motion_between(from, to), options);
+    out.impossible += answer.status == PlaceAnswer::Status::kImpossible ? 1 : 0;
+    out.not_found += answer.status == PlaceAnswer::Status::kNotFound ? 1 : 0;
+    if (answer.status != PlaceAnswer::Status::kFound) continue;
+    ++out.found;
+    Scene scene = wish.model.scene;
+    scene.gripper.grip_force = answer.best.grip_force;
+    const Transition done = apply(prepare(scene, wish.model.options), Grasp{from, 0.0},
+                                  answer.best.push, {.tolerance = 1e-8});
+    EXPECT_TRUE(done.completed()) << i << ' ' << done.reason;
+    const Vec2 off(done.end.X_HO.x - to.x, done.end.X_HO.y - to.y);
+    EXPECT_LE(off.norm(), kPlaceDistanceTolerance) << i;
+    EXPECT_LE(std::abs(done.end.X_HO.theta - to.theta), kPlaceAngleTolerance) << i;
+    EXPECT_LE(done.worst_certificate, 1e-6) << i;
+  }
+  return out;
+}
+
+TEST(Place, PushesThatAreNamedEndWhereTheyShould) {
+  EXPECT_GT(check_paths(45, 100).found, 20);
+}
+
+TEST(Place, FullThousandPathsEndWhereTheyShould) {
+  const Count count = check_paths(47, 1000);
+  EXPECT_GT(count.found, 200);
+  std::printf("%d found, %d impossible, %d not found\n", count.found, count.impossible,
+              count.not_found);
 }
 
 TEST(Place, MeetsWhatIsWantedOrProvesThatNobodyCan) {

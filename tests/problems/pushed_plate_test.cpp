@@ -34,6 +34,29 @@ TEST(UniformPlate, CarriesItsLoadAtTheCentroidWithTheRightTorque) {
   EXPECT_LT((right_angle.centre() - Vec2(0.05, 0.05)).norm(), 1e-9);
 }
 
+TEST(LoadedPlate, MovesTheLoadToTheEdgeAndKeepsItsCentre) {
+  const std::vector<Vec2> triangle = {{0.0, 0.0}, {0.15, 0.0}, {0.0, 0.15}};
+  for (const Plate& plate : {square_plate(48), uniform_plate(triangle, 48)}) {
+    double last = 0.0;
+    for (const double p : {-1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 3.0}) {
+      const Plate loaded = loaded_plate(plate, p);
+      double sum = 0.0;
+      for (const double share : loaded.shares) {
+        EXPECT_GT(share, 0.0);
+        sum += share;
+      }
+      EXPECT_NEAR(sum, 1.0, 1e-12);
+      EXPECT_GT(loaded.torque_radius(), last) << p;
+      last = loaded.torque_radius();
+      const double slack = p == 3.0 || p == -1.0 ? 1e-3 : 1e-9;  // least loads
+      EXPECT_LT((loaded.centre() - plate.centre()).norm(), slack) << p;
+      if (p == 0.0) {
+        EXPECT_NEAR(last, plate.torque_radius(), 1e-12);
+      }
+    }
+  }
+}
+
 TEST(TipGap, IsTheSignedDistanceWithTheInwardNormal) {
   const Plate plate = square_plate(9);
   const TipGap outside = tip_gap(plate, {-0.05, 0.01}, 0.004);

@@ -1,0 +1,61 @@
+#include "primitives/spread_interval.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "problems/random_stream.h"
+
+namespace prehensile {
+namespace {
+
+TEST(SpreadInterval, TheNeededFactorIsTheLeastThatHoldsTheValue) {
+  RandomStream random(1);
+  for (int i = 0; i < 1000; ++i) {
+    const double middle = random.in(-1.0, 1.0);
+    const SpreadQuantiles spread{middle - random.in(0.0, 1.0), middle,
+                                 middle + random.in(0.0, 1.0)};
+    const double floor = random.in(1e-3, 0.5);
+    const double value = random.in(-3.0, 3.0);
+    const double needed = factor_needed(spread, floor, value);
+    const SpreadInterval more = stated_interval(spread, floor, 1.0001 * needed + 1e-12);
+    const SpreadInterval less = stated_interval(spread, floor, 0.9999 * needed - 1e-12);
+    EXPECT_TRUE(more.low <= value && value <= more.high) << i;
+    EXPECT_FALSE(less.low <= value && value <= less.high) << i;
+  }
+}
+
+TEST(SpreadInterval, WithoutWidthNoFactorHelps) {
+  EXPECT_TRUE(std::isinf(factor_needed({0.0, 0.0, 0.0}, 0.0, 0.1)));
+  EXPECT_EQ(factor_needed({0.0, 0.0, 0.0}, 0.0, 0.0), 0.0);
+}
+
+TEST(SpreadInterval, ConformalFactorsCoverNewDraws) {
+  RandomStream random(2);
+  const int trials = 2000;
+  for (const double level : {0.5, 0.9}) {
+    for (const int count : {9, 20, 99}) {
+      int covered = 0;
+      for (int trial = 0; trial < trials; ++trial) {
+        const auto draw = [&] { return std::exp(random.in(-3.0, 3.0)); };  // heavy tail
+        std::vector<double> needed;
+        for (int i = 0; i < count; ++i) needed.push_back(draw());
+        covered += draw() <= conformal_factor(needed, level);
+      }
+      const double slack = 3.5 * std::sqrt(level * (1.0 - level) / trials);
+      EXPECT_GT(covered, (level - slack) * trials) << level << ' ' << count;
+      EXPECT_LT(covered, (level + 1.0 / (count + 1) + slack) * trials)
+          << level << ' ' << count;
+    }
+  }
+}
+
+TEST(SpreadInterval, TooFewPushesHaveNoFactor) {
+  EXPECT_TRUE(std::isinf(conformal_factor({1.0, 2.0, 3.0}, 0.9)));
+  EXPECT_TRUE(std::isinf(conformal_factor({}, 0.5)));
+  EXPECT_EQ(conformal_factor({1.0, 2.0, 3.0}, 0.75), 3.0);
+}
+
+}  // namespace
+}  // namespace prehensile

@@ -9,6 +9,11 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
+bool can_roll(const Object& object) {
+  const auto* cylinder = std::get_if<CylinderShape>(&object.shape);
+  return cylinder && cylinder->axis != Axis::kZ;
+}
+
 std::optional<double> length_in_plane(const PusherFeature& feature) {
   if (const auto* line = std::get_if<LineFeature>(&feature)) {
     return line->length.value_or(kInfinity);

@@ -366,11 +366,6 @@ void check_start_is_held(Checker& checker, const Scene& scene) {
 
 }  // namespace
 
-bool can_roll(const Object& object) {
-  const auto* cylinder = std::get_if<CylinderShape>(&object.shape);
-  return cylinder && cylinder->axis != Axis::kZ;
-}
-
 std::vector<Fault> check(const Scene& scene) {
   Checker checker;
   const bool rolls = can_roll(scene.object);

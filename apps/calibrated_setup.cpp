@@ -71,10 +71,10 @@ double place_width(const CalibratedSetup& setup, double to_90) {
     if (j < 0) return kUsualPlace;
     const CalibratedParameter& parameter =
         setup.calibration.parameters[static_cast<std::size_t>(j)];
-    most = std::max(
-        most, parameter.told ? parameter.profile.interval.half_width() : kUsualPlace);
+    const double told = to_90 * parameter.profile.interval.half_width();
+    most = std::max(most, parameter.told ? told : kUsualPlace);
   }
-  return most;
+  return std::min(1.0, most);
 }
 
 CalibrationRecord record_of(const CalibratedSetup& setup, const std::string& source) {

@@ -51,7 +51,7 @@ class Adviser {
     if (stopped() || !check(scene).empty()) return false;
     options_.margin = margin;
     const Plan plan = plan_regrasp(prepare(scene, model_.options), options_);
-    if (!plan.usable()) return false;
+    if (plan.status != PlanStatus::kReachedGoal) return false;
     change.cost = plan.cost;
     changes_.push_back(std::move(change));
     return true;

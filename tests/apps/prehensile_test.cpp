@@ -38,7 +38,11 @@ TEST(Program, EveryShippedProblemIsPlannedAndChecked) {
     ++problems_found;
     const std::string scene = entry.path().string();
     const Outcome planned = run_program("plan " + scene + " -o " + plan);
-    ASSERT_EQ(planned.exit_code, 0) << scene << planned.out << planned.err;
+    // Its smooth pads hold the bar only while it stands on the sheet: refused with a
+    // proof.
+    const bool is_refused = entry.path().stem() == "roll_prism";
+    ASSERT_EQ(planned.exit_code, is_refused ? 1 : 0)
+        << scene << planned.out << planned.err;
     const Outcome checked = run_program("check " + plan);
     EXPECT_EQ(checked.exit_code, 0) << scene << checked.out << checked.err;
   }

@@ -24,12 +24,6 @@ inline Shape random_shape(Random& random) {
         prism.outline.push_back(rotated(angle, {random.in(0.03, 0.06), 0.0}));
       }
       prism.thickness = random.in(0.01, 0.1);
-      if (random.chance(0.3)) {  // lying in the pad plane
-        prism.axis = random.chance(0.5) ? Axis::kX : Axis::kY;
-        const double a = random.in(0.01, 0.03);
-        const double b = random.in(0.01, 0.03);
-        prism.outline = {{-a, -b}, {a, -b}, {1.2 * a, 0.0}, {a, b}, {-a, b}};
-      }
       return prism;
     }
   }

@@ -89,6 +89,21 @@ bool stays_on_object(const Model& model, const Plan& plan, std::string* why) {
   return true;
 }
 
+namespace {
+
+/// The same push looked at twice as closely, as a replay does: a second motion may be
+/// possible at a few places only.
+std::string fault_at_half_step(const Model& model, const PlannedPush& push,
+                               const TransitionOptions& options, Plan& plan) {
+  TransitionOptions half = options;
+  half.max_step = 0.5 * options.max_step;
+  const Transition done = apply(model, push.start, push.push, half);
+  plan.instants += done.instants;
+  return fault_of(push, done, half);
+}
+
+}  // namespace
+
 bool check_exactly(const Model& model, const TransitionOptions& options, Plan& plan,
                    std::string* why) {
   double travelled = 0.0;
@@ -103,6 +118,7 @@ bool check_exactly(const Model& model, const TransitionOptions& options, Plan& p
         push_slack(model, push.start, push.push, carried(plan.margin, travelled));
     travelled += travel_in_pad_plane(push.push);
     std::string fault = fault_of(push, done, options);
+    if (fault.empty()) fault = fault_at_half_step(model, push, options, plan);
     if (fault.empty()) fault = space_margin_fault(model, push, plan.margin, options);
     if (fault.empty()) continue;
     if (why) *why = "push " + std::to_string(i + 1) + ": " + fault;

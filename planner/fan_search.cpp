@@ -14,10 +14,11 @@ namespace prehensile {
 namespace {
 
 constexpr std::array<int, 13> kPieces = {1, 2, 3, 4, 6, 9, 14, 20, 30, 60, 120, 240, 400};
+constexpr int kMostPiecesWhereThin = 9;  // more do not help where control is lost
 constexpr std::array<double, 3> kDepths = {0.02, 0.1, 0.3};  // of moves in their ranges
-constexpr std::array<int, 4> kLegPieces = {8, 32, 128, 300};
+constexpr std::array<int, 3> kLegPieces = {8, 32, 128};
 constexpr int kBranchNodes = 200;  // lattice of places where legs may begin
-constexpr int kMostBranches = 12;
+constexpr int kMostBranches = 4;
 
 using Moves = std::vector<Move>;
 using Order = std::array<int, 3>;
@@ -58,7 +59,9 @@ class FanSearch {
     const std::vector<Vec2> path =
         inner_path(search_.model->pad_face, from.p_OF, to.p_OF);
     if (path.empty()) return std::nullopt;
+    const bool thin = !controllable(from.p_OF) || !controllable(to.p_OF);
     for (const int pieces : kPieces) {
+      if (thin && pieces > kMostPiecesWhereThin) return std::nullopt;
       for (const double depth : kDepths) {
         if (limits_.reached()) return std::nullopt;
         if (auto moves = walk_pieces(from, to, cut_path(path, pieces), depth)) {

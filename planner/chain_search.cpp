@@ -17,7 +17,8 @@ struct Fineness {
 };
 constexpr double kNoPlan = std::numeric_limits<double>::infinity();
 constexpr Fineness kCoarse = {200, 12};
-constexpr Fineness kFine = {800, 20};
+constexpr Fineness kFine = {800, 20};  // in search of better plans
+constexpr Fineness kFinest = {3000, 40};
 constexpr Fineness kSparse = {50, 7};  // for rotations of the real pads, which cost most
 
 class ChainSearch {
@@ -75,8 +76,9 @@ class ChainSearch {
     if (envelope && !is_enough() && !limits_.reached()) {
       try_labels({search_, true, envelope}, kSparse, to_beat);
     }
-    if (limits_.improves() && !is_enough() && !limits_.reached()) {
-      try_labels(steering_.back(), kFine, to_beat);
+    for (const Fineness& fineness : {kFine, kFinest}) {
+      if (!limits_.improves() || is_enough() || limits_.reached()) break;
+      try_labels(steering_.back(), fineness, to_beat);
     }
     return found_;
   }

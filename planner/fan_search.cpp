@@ -18,7 +18,7 @@ constexpr int kMostPiecesWhereThin = 9;  // more do not help where control is lo
 constexpr std::array<double, 3> kDepths = {0.02, 0.1, 0.3};  // of moves in their ranges
 constexpr std::array<int, 3> kLegPieces = {8, 32, 128};
 constexpr int kBranchNodes = 200;  // lattice of places where legs may begin
-constexpr int kMostBranches = 4;
+constexpr int kMostBranches = 8;
 
 using Moves = std::vector<Move>;
 using Order = std::array<int, 3>;

@@ -65,7 +65,8 @@ class Slopes {
 
 Slopes slopes_of(const SearchModel& search, int contact, const Vec2& p_OF,
                  const Vec2& e) {
-  return Slopes(robust_kappas(search.contacts[contact].stick, p_OF, e, search.margin_from(p_OF)));
+  return Slopes(
+      robust_kappas(search.contacts[contact].stick, p_OF, e, search.margin_from(p_OF)));
 }
 
 bool equal(const FlatState& a, const FlatState& b) {

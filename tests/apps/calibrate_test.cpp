@@ -32,7 +32,8 @@ const json& parameter(const json& answer, const std::string& name) {
 
 /// The first lines of the example's pushes.
 std::string first_pushes(int count) {
-  std::istringstream in(read_text(PREHENSILE_SOURCE_DIR "/problems/calibration/tip_pushes.csv"));
+  std::istringstream in(
+      read_text(PREHENSILE_SOURCE_DIR "/problems/calibration/tip_pushes.csv"));
   std::string line, out;
   for (int i = 0; i <= count && std::getline(in, line); ++i) out += line + '\n';
   return out;

@@ -182,6 +182,7 @@ class Running {
       : err_(err) {
     std::vector<char*> argv;
     arguments.insert(arguments.begin(), PREHENSILE_PROGRAM);
+    argv.reserve(arguments.size() + 1);
     for (std::string& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);
     posix_spawn_file_actions_t actions;

@@ -118,7 +118,7 @@ TEST(Advice, NamesOnlyChangesThatWork) {
   EXPECT_GT(plan.obstacles.total(), 0);
   const Explanation explanation = explain(model, plan, options);
   ASSERT_FALSE(explanation.changes.empty());
-  EXPECT_NE(explanation.text.find("%"), std::string::npos) << explanation.text;
+  EXPECT_NE(explanation.text.find('%'), std::string::npos) << explanation.text;
   bool proposes_pusher = false;
   for (const ProposedChange& change : explanation.changes) {
     EXPECT_TRUE(std::isfinite(change.cost));

@@ -78,7 +78,8 @@ TEST(MarginOfBox, EverySceneOfTheBoxSticksWhereTheMarginSaysSo) {
     if (!(std::min(robust, pads.slack) >= 0.0)) continue;
     ++accepted;
     for (int m = 0; m < 20; ++m) {
-      const auto index = static_cast<std::uint64_t>(20 * i + m);
+      const auto index =
+          20 * static_cast<std::uint64_t>(i) + static_cast<std::uint64_t>(m);
       const BoxPoint at =
           m % 2 ? random_point(7, index) : corner(box, index * 2654435761U % 4096U);
       const UncertainPush member = vary(scene, start, push, box, at);

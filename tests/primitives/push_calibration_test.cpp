@@ -37,7 +37,7 @@ struct Truth {
 MeasuredPush drawn_push(RandomStream& random) {
   const std::array<Vec2, 3> normals = {Vec2(1.0, 0.0), Vec2(0.0, 1.0), Vec2(0.0, -1.0)};
   const int face = random.below(3);
-  const Vec2 n = normals[static_cast<std::size_t>(face)];
+  const Vec2& n = normals[static_cast<std::size_t>(face)];
   const double along = face == 0 ? random.in(-0.015, 0.015) : random.in(-0.035, 0.035);
   const Vec2 met = Vec2(-0.05 * n.x(), -0.02 * n.y()) + along * perp(n);
   const Vec2 way = rotated(random.in(-0.8, 0.8), n);
@@ -293,6 +293,7 @@ TEST(SlipCalibration, TellsFrictionTorqueRadiusAndBias) {
   const Scene scene = tip_on_box();
   const double c = ContactRegion(scene, 64).torque_radius();
   std::vector<double> grips;
+  grips.reserve(24);
   for (int i = 0; i < 24; ++i) grips.push_back(4.0 * (1 + i % 6));
   const SceneFit fit = slip_fit(scene, made_readings(grips, 0.55, 0.8, 1.2 * c, 1));
   const Calibration found = calibrate(fit.problem);

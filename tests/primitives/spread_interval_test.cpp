@@ -40,6 +40,7 @@ TEST(SpreadInterval, ConformalFactorsCoverNewDraws) {
       for (int trial = 0; trial < trials; ++trial) {
         const auto draw = [&] { return std::exp(random.in(-3.0, 3.0)); };  // heavy tail
         std::vector<double> needed;
+        needed.reserve(static_cast<std::size_t>(count));
         for (int i = 0; i < count; ++i) needed.push_back(draw());
         covered += draw() <= conformal_factor(needed, level);
       }

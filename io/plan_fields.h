@@ -60,15 +60,15 @@ struct WrittenPush {
   PlannedPush planned;  // its numbers; the push itself is made from what is above
 };
 
-/// An obstacle with its count.
-struct WrittenObstacle {
+/// A constraint with the count of pushes that it stopped.
+struct WrittenConstraint {
   std::string constraint;
   std::uint64_t count = 0;
 };
 
 struct WrittenExplanation {
   std::string text;
-  std::vector<WrittenObstacle> obstacles;
+  std::vector<WrittenConstraint> stopped_by;
   std::vector<ProposedChange> changes;
 };
 
@@ -191,11 +191,11 @@ void visit_change(Fields& fields, ProposedChange& change) {
 template <typename Fields>
 void visit_explanation(Fields& fields, WrittenExplanation& explanation) {
   fields.text("text", explanation.text, kRequired, "One paragraph.");
-  fields.list("stopped_by", explanation.obstacles, Length{0, 100}, kOptional,
+  fields.list("stopped_by", explanation.stopped_by, Length{0, 100}, kOptional,
               "What stopped the pushes that the search tried, most frequent first.",
-              [](auto& f, WrittenObstacle& obstacle) {
-                f.text("constraint", obstacle.constraint, kRequired, "In words.");
-                f.count("count", obstacle.count, "Pushes that it stopped.");
+              [](auto& f, WrittenConstraint& constraint) {
+                f.text("constraint", constraint.constraint, kRequired, "In words.");
+                f.count("count", constraint.count, "Pushes that it stopped.");
               });
   fields.list("changes", explanation.changes, Length{0, 1000}, kOptional,
               "Changes that were planned for and worked.",

@@ -191,13 +191,13 @@ void check_agreement(const WrittenPlan& record, const std::string& digest,
 std::optional<internal::WrittenExplanation> record_of(const Plan& plan) {
   if (!plan.explanation) return std::nullopt;
   internal::WrittenExplanation out{plan.explanation->text, {}, plan.explanation->changes};
-  for (int i = 0; i < kObstacles; ++i) {
-    const auto obstacle = static_cast<Obstacle>(i);
-    if (plan.obstacles[obstacle] == 0) continue;
-    out.obstacles.push_back({std::string(name(obstacle)),
-                             static_cast<std::uint64_t>(plan.obstacles[obstacle])});
+  for (int i = 0; i < kPushConstraints; ++i) {
+    const auto constraint = static_cast<PushConstraint>(i);
+    if (plan.stopped_by[constraint] == 0) continue;
+    out.stopped_by.push_back({std::string(name(constraint)),
+                              static_cast<std::uint64_t>(plan.stopped_by[constraint])});
   }
-  std::stable_sort(out.obstacles.begin(), out.obstacles.end(),
+  std::stable_sort(out.stopped_by.begin(), out.stopped_by.end(),
                    [](const auto& a, const auto& b) { return a.count > b.count; });
   return out;
 }
@@ -237,11 +237,11 @@ PlanFile parse_plan(const std::string& text, const std::string& label) {
   if (record.proof) file.plan.proof = *record.proof;
   if (record.explanation) {
     file.plan.explanation = {record.explanation->text, record.explanation->changes};
-    for (int i = 0; i < kObstacles; ++i) {
-      const auto obstacle = static_cast<Obstacle>(i);
-      for (const internal::WrittenObstacle& written : record.explanation->obstacles) {
-        if (written.constraint != name(obstacle)) continue;
-        file.plan.obstacles.count[static_cast<std::size_t>(i)] =
+    for (int i = 0; i < kPushConstraints; ++i) {
+      const auto constraint = static_cast<PushConstraint>(i);
+      for (const internal::WrittenConstraint& written : record.explanation->stopped_by) {
+        if (written.constraint != name(constraint)) continue;
+        file.plan.stopped_by.count[static_cast<std::size_t>(i)] =
             static_cast<std::int64_t>(written.count);
       }
     }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "mechanics/cross_section_modes.h"
+#include "mechanics/section_answer.h"
 
 namespace prehensile {
 namespace {
@@ -53,36 +54,8 @@ bool find_solutions(const MotionTable& table, const Balance& balance,
   return true;
 }
 
-// The solution to report first: the one that turns most, so that a caller who wants to
-// roll sees it.
-void put_fastest_first(Solutions& solutions) {
-  int best = 0;
-  for (int i = 1; i < solutions.count; ++i)
-    if (std::abs(solutions.found[i].motion[2]) >
-        std::abs(solutions.found[best].motion[2]) + kSameMotion)
-      best = i;
-  std::swap(solutions.found[0], solutions.found[best]);
-}
-
-struct Units {
-  double force = 1.0;
-  double rate = 1.0;
-  double length = 1.0;
-};
-
-CrossSectionMotion in_si(const Freedoms& v, const Units& units) {
-  return {v[0] * units.rate, v[1] * units.rate, v[2] * units.rate / units.length,
-          v[3] * units.rate};
-}
-
-CrossSectionForces in_si(CrossSectionForces forces, const Units& units) {
-  for (double& f : forces.normal) f *= units.force;
-  for (double& f : forces.tangential) f *= units.force;
-  return forces;
-}
-
 void write_motion(CrossSectionInstant& answer, JawMode jaw_mode, const Freedoms& v,
-                  double sheet_rate, const Units& units) {
+                  double sheet_rate, const SectionUnits& units) {
   const CrossSectionMotion motion = in_si(v, units);
   answer.v_z = motion.v_z;
   answer.v_u = motion.v_u;
@@ -93,7 +66,7 @@ void write_motion(CrossSectionInstant& answer, JawMode jaw_mode, const Freedoms&
 }
 
 void write_forces(CrossSectionInstant& answer, const ForceRange& range,
-                  const Units& units) {
+                  const SectionUnits& units) {
   const CrossSectionForces forces = in_si(range.middle, units);
   answer.normal_force = forces.normal;
   answer.tangential_force = forces.tangential;
@@ -112,7 +85,8 @@ InstantStatus verdict(const Solutions& solutions, const ForceRange& range) {
 
 // A motion off the sheet that no force of the jaws opposes, while gravity and grip gain
 // power from it: the jaws alone cannot hold the object.
-bool falls(CrossSectionInstant& answer, const Balance& balance, const Units& units) {
+bool falls(CrossSectionInstant& answer, const Balance& balance,
+           const SectionUnits& units) {
   LinearProgram program(kFreedoms, /*nonnegative=*/false);
   for (int j = 0; j < kEdges; ++j) {
     if (j / 2 == kSheet) continue;
@@ -137,7 +111,7 @@ bool falls(CrossSectionInstant& answer, const Balance& balance, const Units& uni
 // The sheet drags the object into a wedge: forces that balance each other and take power
 // from the sheet.
 bool is_jammed(CrossSectionInstant& answer, const Balance& balance, double sheet_rate,
-               const Units& units) {
+               const SectionUnits& units) {
   ForceProgram force = force_program(balance, kAllModes, Freedoms{});
   LinearProgram::Point& power = force.program.add_row(Relation::kEqual, 1.0);
   for (int c = 0; c < kEdges; ++c)
@@ -161,7 +135,7 @@ bool well_posed(const CrossSectionModel& model, const CrossSectionDrive& drive) 
          drive.sheet_rate != 0.0;
 }
 
-Units units_of(const CrossSectionModel& model, const CrossSectionDrive& drive) {
+SectionUnits units_of(const CrossSectionModel& model, const CrossSectionDrive& drive) {
   const double force = std::max(2.0 * model.grip_force, std::abs(drive.weight));
   return {force > 0.0 ? force : 1.0, std::abs(drive.sheet_rate), model.radius};
 }
@@ -174,7 +148,7 @@ CrossSectionInstant solve_cross_section(const CrossSectionModel& model,
   answer.status = InstantStatus::kBadInput;
   if (!well_posed(model, drive)) return answer;
 
-  const Units units = units_of(model, drive);
+  const SectionUnits units = units_of(model, drive);
   const double sheet_rate = drive.sheet_rate > 0.0 ? 1.0 : -1.0;
   const Balance balance = balance_of(model, drive, units.force);
 
@@ -187,7 +161,7 @@ CrossSectionInstant solve_cross_section(const CrossSectionModel& model,
     if (!falls(answer, balance, units)) is_jammed(answer, balance, sheet_rate, units);
     return answer;
   }
-  put_fastest_first(solutions);
+  put_fastest_first(solutions, kSameMotion);
   const Solutions::Found& first = solutions.found[0];
   const ForceRange range = force_range(balance, first.modes);
   if (!range.solved) return answer;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "mechanics/pad_drag.h"
+
 namespace prehensile {
 namespace {
 
@@ -46,21 +48,13 @@ PadEnvelope::Table PadEnvelope::tabulate(const Model& model, const Row& grid,
     table.across[i] = 0.0;
     for (int k = 0; k < angles; ++k) {
       const Vec2 e = unit_vector(k, angles);
-      Vec2 force = Vec2::Zero();
-      double moment = 0.0;
-      for (int j = 0; j < points.count; ++j) {
-        const Vec2 r = stretch * Vec2(points.x[j], points.y[j]);
-        const Vec2 slip = e + omega * perp(r);
-        const double speed = slip.norm();
-        if (speed == 0.0) continue;
-        const Vec2 f = points.weight[j] / speed * slip;
-        force += f;
-        moment += cross(r, f) / model.c;
-      }
-      const double along = force.dot(e);
+      const PadDrag drag = drag_of_points(points.count, points.x, points.y, points.weight,
+                                          stretch, e, omega);
+      const double moment = drag.moment / model.c;
+      const double along = drag.force.dot(e);
       table.along_low[i] = std::min(table.along_low[i], along);
       table.along_high[i] = std::max(table.along_high[i], along);
-      table.across[i] = std::max(table.across[i], std::abs(cross(e, force)));
+      table.across[i] = std::max(table.across[i], std::abs(cross(e, drag.force)));
       table.moment_low[i] = std::min(table.moment_low[i], moment);
       table.moment_high[i] = std::max(table.moment_high[i], moment);
     }

@@ -2,18 +2,13 @@
 #include <cmath>
 
 #include "mechanics/prism_modes.h"
+#include "mechanics/section_answer.h"
 
 namespace prehensile {
 namespace {
 
 using namespace prism;
 using Relation = LinearProgram::Relation;
-
-struct Units {
-  double force = 1.0;
-  double rate = 1.0;
-  double length = 1.0;
-};
 
 // The distinct motions that have forces, with the modes under which they were found.
 struct Solutions {
@@ -59,26 +54,6 @@ bool find_solutions(const Turning& turning, int index, const Balance& balance,
   return true;
 }
 
-void put_fastest_first(Solutions& solutions) {
-  int best = 0;
-  for (int i = 1; i < solutions.count; ++i)
-    if (std::abs(solutions.found[i].motion[2]) >
-        std::abs(solutions.found[best].motion[2]) + kSameMotion)
-      best = i;
-  std::swap(solutions.found[0], solutions.found[best]);
-}
-
-CrossSectionMotion in_si(const Freedoms& v, const Units& units) {
-  return {v[0] * units.rate, v[1] * units.rate, v[2] * units.rate / units.length,
-          v[3] * units.rate};
-}
-
-SectionForces in_si(SectionForces forces, const Units& units) {
-  for (double& f : forces.normal) f *= units.force;
-  for (double& f : forces.tangential) f *= units.force;
-  return forces;
-}
-
 ContactMode mode_of(const Turning& turning, int contact, const Freedoms& v,
                     double sheet_rate) {
   int first = 0;
@@ -93,7 +68,7 @@ ContactMode mode_of(const Turning& turning, int contact, const Freedoms& v,
 // A motion that no contact opposes, while gravity and grip gain power from it: no forces
 // balance the object.
 bool tips(PrismInstant& answer, const Turning& all, const Balance& balance,
-          const Units& units) {
+          const SectionUnits& units) {
   LinearProgram program(kFreedoms, /*nonnegative=*/false);
   for (int p = 0; p < all.count; ++p) {
     for (const double sign : {1.0, -1.0}) {
@@ -119,7 +94,7 @@ bool tips(PrismInstant& answer, const Turning& all, const Balance& balance,
 // The support drags the object into a wedge: forces that balance each other and take
 // power from it.
 bool is_jammed(PrismInstant& answer, const Turning& all, const Balance& balance,
-               double sheet_rate, const Units& units) {
+               double sheet_rate, const SectionUnits& units) {
   ForceProgram force = force_program(all, balance, kAllModes, Freedoms{});
   LinearProgram::Point& power = force.program.add_row(Relation::kEqual, 1.0);
   const double mu = balance.mu[kSheet];
@@ -132,7 +107,7 @@ bool is_jammed(PrismInstant& answer, const Turning& all, const Balance& balance,
   SectionForces forces = forces_of(all, balance, force, wedge.x);
   // Only their ratios say something.
   const double most = *std::max_element(forces.normal.begin(), forces.normal.end());
-  answer.evidence_forces = in_si(forces, {units.force / most, 1.0, 1.0});
+  answer.evidence_forces = in_si(forces, SectionUnits{units.force / most, 1.0, 1.0});
   return true;
 }
 
@@ -149,7 +124,7 @@ bool well_posed(const SectionPolygon& polygon, double roll, const PrismContacts&
 }
 
 Balance balance_of(const SectionPolygon& polygon, double roll, const PrismGrip& grip,
-                   const CrossSectionDrive& drive, const Units& units) {
+                   const CrossSectionDrive& drive, const SectionUnits& units) {
   Balance balance;
   balance.mu = {grip.friction[0], grip.friction[1], drive.mu};
   const Vec2 com = rotated(roll, polygon.com) / units.length;
@@ -159,7 +134,8 @@ Balance balance_of(const SectionPolygon& polygon, double roll, const PrismGrip& 
   return balance;
 }
 
-void write_forces(PrismInstant& answer, const ForceRange& range, const Units& units) {
+void write_forces(PrismInstant& answer, const ForceRange& range,
+                  const SectionUnits& units) {
   answer.forces = in_si(range.middle, units);
   answer.least = in_si(range.least, units);
   answer.greatest = in_si(range.greatest, units);
@@ -176,8 +152,8 @@ PrismInstant solve_prism(const SectionPolygon& polygon, double roll,
   PrismInstant answer;
   answer.status = InstantStatus::kBadInput;
   if (!well_posed(polygon, roll, contacts, grip, drive)) return answer;
-  Units units{std::max(2.0 * grip.grip_force, std::abs(drive.weight)),
-              std::abs(drive.sheet_rate), polygon.size};
+  SectionUnits units{std::max(2.0 * grip.grip_force, std::abs(drive.weight)),
+                     std::abs(drive.sheet_rate), polygon.size};
   if (units.force == 0.0) units.force = 1.0;
   const double sheet_rate = drive.sheet_rate > 0.0 ? 1.0 : -1.0;
   const Balance balance = balance_of(polygon, roll, grip, drive, units);
@@ -195,7 +171,7 @@ PrismInstant solve_prism(const SectionPolygon& polygon, double roll,
                        !is_jammed(answer, all, balance, sheet_rate, units);
     return answer;
   }
-  put_fastest_first(solutions);
+  put_fastest_first(solutions, kSameMotion);
   const Solutions::Found& first = solutions.found[0];
   const Turning& turning = turnings.each[first.turning];
   const ForceRange range = force_range(turning, balance, first.modes);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mechanics/pad_drag.h"
+
 namespace prehensile {
 namespace {
 
@@ -12,34 +14,19 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kEllipsoidMoment = 1e-9;  // tolerances at a point contact, over F c
 constexpr double kPadMoment = 1e-3;
 
-/// Wrench about the finger axis that overcomes the friction of the pads, over F; in O.
-struct Drag {
-  Vec2 force = Vec2::Zero();
-  double moment = 0.0;  ///< [m]
-};
-
-/// The ellipsoid's drag for a twist (velocity, omega) of any scale, with torque radius c.
-Drag ellipsoid_drag(double c, const Vec2& velocity, double omega) {
+/// The ellipsoid's drag over F, in O, for a twist (velocity, omega) of any scale, with
+/// torque radius c.
+PadDrag ellipsoid_drag(double c, const Vec2& velocity, double omega) {
   const double speed = std::sqrt(velocity.squaredNorm() + c * c * omega * omega);
   return {velocity / speed, c * c * omega / speed};
 }
 
 /// The same of the real pad, its points moved away from the finger axis by `stretch`.
-Drag pad_drag(const Model& model, const PlanarGrasp& grasp, double theta,
-              const Vec2& velocity, double omega, double stretch) {
-  const Vec2 velocity_H = rotated(theta, velocity);
-  Vec2 force_H = Vec2::Zero();
-  double moment = 0.0;
-  for (int j = 0; j < grasp.count; ++j) {
-    const Vec2 r = stretch * Vec2(grasp.x[j], grasp.y[j]);
-    const Vec2 slip = velocity_H + omega * perp(r);
-    const double speed = slip.norm();
-    if (speed == 0.0) continue;
-    const Vec2 f = grasp.bound[j] / speed * slip;
-    force_H += f;
-    moment += cross(r, f);
-  }
-  return {rotated(-theta, force_H) / model.F, moment / model.F};
+PadDrag pad_drag(const Model& model, const PlanarGrasp& grasp, double theta,
+                 const Vec2& velocity, double omega, double stretch) {
+  const PadDrag drag = drag_of_points(grasp.count, grasp.x, grasp.y, grasp.bound, stretch,
+                                      rotated(theta, velocity), omega);
+  return {rotated(-theta, drag.force) / model.F, drag.moment / model.F};
 }
 
 /// Push wrench on the object over F: what remains of the drag after gravity.
@@ -48,7 +35,7 @@ struct Effort {
   double moment_a, moment_b;  ///< [m] about the ends of the face
 };
 
-Effort effort_of(const StickContact& contact, const Vec2& p_OF, const Drag& drag,
+Effort effort_of(const StickContact& contact, const Vec2& p_OF, const PadDrag& drag,
                  double gravity) {
   const Vec2 force = drag.force - gravity * contact.gamma;
   const double moment =
@@ -119,7 +106,7 @@ struct Tilts {
 
 /// Cone and ends as cone_slack and end_slack say, but drag and gravity turned to the
 /// worst, each row by itself, and the finger axis off its place.
-double turned_slack(const StickContact& weak, const FingerPath& path, const Drag& drag,
+double turned_slack(const StickContact& weak, const FingerPath& path, const PadDrag& drag,
                     double gravity, const Margin& margin, const Tilts& tilts) {
   const auto row = [&](double n, double t) {
     const Vec2 w = n * weak.n + t * weak.t;
@@ -145,8 +132,8 @@ double turned_slack(const StickContact& weak, const FingerPath& path, const Drag
 
 /// Least slack of a weakened contact at one drag over the box of m/F and centre of mass,
 /// in both of which the rows are affine, and over tilt and place of the finger axis.
-double slack_of_drag(const StickContact& weak, const FingerPath& path, const Drag& drag,
-                     const Margin& margin, const Tilts& tilts) {
+double slack_of_drag(const StickContact& weak, const FingerPath& path,
+                     const PadDrag& drag, const Margin& margin, const Tilts& tilts) {
   const bool straight = tilts.drag == 0.0 && tilts.gravity == 0.0 && margin.grasp == 0.0;
   double slack = kInfinity;
   for (const double gravity : {1.0 - margin.force, 1.0 + margin.force}) {
@@ -163,7 +150,7 @@ double slack_of_drag(const StickContact& weak, const FingerPath& path, const Dra
   return slack;
 }
 
-StickTest reported(const StickContact& contact, const Vec2& p_OF, const Drag& drag,
+StickTest reported(const StickContact& contact, const Vec2& p_OF, const PadDrag& drag,
                    double F, double moment_tolerance) {
   const Effort effort = effort_of(contact, p_OF, drag, 1.0);
   StickTest test;
@@ -198,7 +185,7 @@ StickContact stick_contact(const Model& model, const PushContact& contact, doubl
 StickTest stick_test(const StickContact& contact, double F, const Vec2& p_OF,
                      const Vec2& e, double v, double omega) noexcept {
   const Vec2 velocity = v * e;
-  const Drag drag = ellipsoid_drag(contact.c, velocity, omega);
+  const PadDrag drag = ellipsoid_drag(contact.c, velocity, omega);
   StickTest test = reported(contact, p_OF, drag, F, kEllipsoidMoment);
   test.slack = std::min(test.slack, advance(contact, contact.a, contact.b, p_OF, velocity,
                                             omega, Margin::none()));
@@ -219,7 +206,7 @@ double robust_slack(const StickContact& contact, const Vec2& p_OF, const Vec2& v
   if (contact.is_point) {
     Margin tilt = Margin::none();  // what concerns the friction cone only
     tilt.tilt = margin.tilt;
-    const Drag nominal = ellipsoid_drag(contact.c, velocity, omega);
+    const PadDrag nominal = ellipsoid_drag(contact.c, velocity, omega);
     const Effort effort = effort_of(contact, p_OF, nominal, 1.0);
     const Vec2 point = centre_of_pressure(contact, effort);
     return std::min({slack, point_slack(contact, effort, kEllipsoidMoment),
@@ -257,7 +244,7 @@ StickTest exact_stick_test(const Model& model, const PushContact& contact, doubl
   const auto drag_at = [&](const Vec2& direction, double stretch) {
     return pad_drag(model, grasp, X_HO.theta, v * direction, omega, stretch);
   };
-  const Drag nominal = drag_at(e, 1.0);
+  const PadDrag nominal = drag_at(e, 1.0);
   test = reported(stick, p_OF, nominal, model.F, kPadMoment);
   const StickContact weak = weakened(stick, margin);
   const Vec2 p_OF_begin = p_OF + travelled * e;
@@ -267,7 +254,7 @@ StickTest exact_stick_test(const Model& model, const PushContact& contact, doubl
   test.slack = std::min({test.slack, slack_of_drag(weak, path, nominal, margin, tilts),
                          advance(stick, weak.a, weak.b, p_OF, v * e, omega, margin)});
   const auto keep = [&](const Vec2& direction, double stretch, const FingerPath& at) {
-    const Drag drag = drag_at(direction, stretch);
+    const PadDrag drag = drag_at(direction, stretch);
     test.slack = std::min(test.slack, slack_of_drag(weak, at, drag, margin, tilts));
   };
   const double stretched = margin.torque_radius;

@@ -174,13 +174,13 @@ class Adviser {
 };
 
 /// "62 % because ..., 21 % because ..."
-std::string shares(const Obstacles& obstacles) {
-  std::array<int, kObstacles> order;
-  for (int i = 0; i < kObstacles; ++i) order[static_cast<std::size_t>(i)] = i;
-  const auto count = [&](int i) { return obstacles[static_cast<Obstacle>(i)]; };
+std::string shares(const ConstraintCounts& stopped_by) {
+  std::array<int, kPushConstraints> order;
+  for (int i = 0; i < kPushConstraints; ++i) order[static_cast<std::size_t>(i)] = i;
+  const auto count = [&](int i) { return stopped_by[static_cast<PushConstraint>(i)]; };
   std::stable_sort(order.begin(), order.end(),
                    [&](int a, int b) { return count(a) > count(b); });
-  const double total = static_cast<double>(obstacles.total());
+  const double total = static_cast<double>(stopped_by.total());
   std::string out;
   for (int k = 0; k < 3; ++k) {
     const int i = order[static_cast<std::size_t>(k)];
@@ -189,7 +189,7 @@ std::string shares(const Obstacles& obstacles) {
     if (!out.empty()) out += ", ";
     out += number(std::round(100.0 * share));
     out += " % because ";
-    out += name(static_cast<Obstacle>(i));
+    out += name(static_cast<PushConstraint>(i));
   }
   return out;
 }
@@ -203,9 +203,9 @@ std::string paragraph(const Plan& plan, const Explanation& explanation) {
   } else {
     text = "No plan was found, which does not prove that there is none.";
   }
-  if (plan.obstacles.total() > 0) {
-    text += " Of " + std::to_string(plan.obstacles.total()) +
-            " pushes that the search gave up, " + shares(plan.obstacles) + ".";
+  if (plan.stopped_by.total() > 0) {
+    text += " Of " + std::to_string(plan.stopped_by.total()) +
+            " pushes that the search gave up, " + shares(plan.stopped_by) + ".";
   }
   if (explanation.changes.empty()) {
     return text +

@@ -109,7 +109,7 @@ bool make_leg(const Steering& steering, int contact, const Stop& from, const Sto
   const double length = d.norm();
   if (length < kShortestLeg) return false;
   if (!is_held(search, contact, from) || !is_held(search, contact, to)) {
-    work.obstacles.add(Obstacle::kGravity);
+    work.stopped_by.add(PushConstraint::kGravity);
     return false;
   }
   if (steering.envelope) {
@@ -127,12 +127,12 @@ bool make_leg(const Steering& steering, int contact, const Stop& from, const Sto
         robust_kappas(stick, from.p_OF, -d / length, search.margin_from(from.p_OF));
   }
   if (leg.kappas.empty()) {
-    work.obstacles.add(obstacle_of(search.contacts[contact], from.p_OF, to.p_OF));
+    work.stopped_by.add(constraint_of(search.contacts[contact], from.p_OF, to.p_OF));
     return false;
   }
   if (!path_on_object(*search.model, {from.p_OF, from.given}, {to.p_OF, to.given},
                       search.margin_from(from.p_OF))) {
-    work.obstacles.add(Obstacle::kOffObject);
+    work.stopped_by.add(PushConstraint::kOffObject);
     return false;
   }
   for (int i = 0; i < leg.kappas.count; ++i) {
@@ -219,7 +219,7 @@ void centre_chain(const SearchModel& search, double dtheta, double share,
 bool make_chain_stick(const SearchModel& search, double theta_start, double dtheta,
                       Chain& chain, Work& work) noexcept {
   if (!solve_chain(search, dtheta, chain)) {
-    work.obstacles.add(Obstacle::kRotation);
+    work.stopped_by.add(PushConstraint::kRotation);
     return false;
   }
   const auto sticks = [&] { return chain_passes(search, chain, theta_start, work); };
@@ -244,7 +244,7 @@ bool chain_passes(const SearchModel& search, const Chain& chain, double theta_st
   for (int k = 0; k < chain.count; ++k) {
     moves[k] = move_of(search, chain, k, theta);
     if (!(exact_slack(search, moves[k], work) >= -kStickTolerance)) {
-      work.obstacles.add(Obstacle::kRealPads);
+      work.stopped_by.add(PushConstraint::kRealPads);
       return false;
     }
     theta = moves[k].to.theta;
@@ -252,7 +252,7 @@ bool chain_passes(const SearchModel& search, const Chain& chain, double theta_st
   const bool held =
       std::all_of(moves.begin(), moves.begin() + chain.count,
                   [&](const Move& move) { return pads_hold_gravity(search, move); });
-  if (!held) work.obstacles.add(Obstacle::kGravity);
+  if (!held) work.stopped_by.add(PushConstraint::kGravity);
   return held;
 }
 

@@ -207,7 +207,7 @@ class LabelSearch {
     }
     const double dtheta = goals_.places[place].theta[angle] - start_.theta;
     if (!solve_chain(search_, dtheta, scratch_)) {
-      work_.obstacles.add(Obstacle::kRotation);
+      work_.stopped_by.add(PushConstraint::kRotation);
       return;
     }
     if (scratch_.cost >= to_beat_) return;

@@ -76,23 +76,23 @@ std::string_view name(Promise promise) {
   return "unknown";
 }
 
-std::string_view name(Obstacle obstacle) {
-  switch (obstacle) {
-    case Obstacle::kOffObject:
+std::string_view name(PushConstraint constraint) {
+  switch (constraint) {
+    case PushConstraint::kOffObject:
       return "the pads would leave the object";
-    case Obstacle::kGravity:
+    case PushConstraint::kGravity:
       return "the grasp alone would not hold the object";
-    case Obstacle::kBackwards:
+    case PushConstraint::kBackwards:
       return "the motion leads away from the pusher";
-    case Obstacle::kFrictionCone:
+    case PushConstraint::kFrictionCone:
       return "the motion lies outside the friction cone of the pusher";
-    case Obstacle::kFaceEnds:
+    case PushConstraint::kFaceEnds:
       return "the push would have to act beyond the ends of the face";
-    case Obstacle::kRotation:
+    case PushConstraint::kRotation:
       return "the pushes cannot turn the object as far as needed";
-    case Obstacle::kRealPads:
+    case PushConstraint::kRealPads:
       return "the push slips with the real pads";
-    case Obstacle::kCount:
+    case PushConstraint::kCount:
       break;
   }
   return "unknown";

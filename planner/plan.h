@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "mechanics/sticking.h"
-#include "planner/obstacle.h"
+#include "planner/push_constraint.h"
 #include "primitives/push.h"
 #include "primitives/transition.h"
 
@@ -105,7 +105,7 @@ struct Plan {
   std::int64_t propagations = 0;           ///< work of OMPL's planners
   std::int64_t instants = 0;               ///< exact mechanics calls in checking
   double seconds = kNan;                   ///< wall time, recorded only
-  Obstacles obstacles;                     ///< met by the own search
+  ConstraintCounts stopped_by;             ///< met by the own search
   std::optional<Explanation> explanation;  ///< only if asked for, see advice.h
   bool stopped_early = false;  ///< interrupted: the best plan found until then
 

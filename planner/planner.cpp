@@ -225,7 +225,7 @@ Plan decide(const Model& model, const PlanOptions& options) {
   plan = search_with_and_without(model, options, work);
   plan.stick_tests = work.stick_tests;
   plan.propagations = work.propagations;
-  plan.obstacles = work.obstacles;
+  plan.stopped_by = work.stopped_by;
   plan.stopped_early = plan.usable() && options.stop && options.stop->load();
   if (plan.stopped_early) plan.message = "stopped: the best plan found until then";
   return plan;

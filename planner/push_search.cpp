@@ -29,7 +29,7 @@ std::optional<Move> best_contact(const SearchModel& search, const FlatState& fro
     const Move move{static_cast<int>(i), from, to};
     const double slack = exact_slack(search, move, work);
     if (!(slack >= -kStickTolerance)) {
-      work.obstacles.add(obstacle_of(search.contacts[i], from.p_OF, to.p_OF));
+      work.stopped_by.add(constraint_of(search.contacts[i], from.p_OF, to.p_OF));
     }
     if (!(slack > best_slack) || !pads_hold_gravity(search, move)) continue;
     best_slack = slack;

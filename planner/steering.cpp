@@ -190,13 +190,13 @@ bool move_sticks(const SearchModel& search, int contact, const FlatState& from,
          passes_pad_check(search, contact, from, to, work);
 }
 
-Obstacle obstacle_of(const SearchContact& contact, const Vec2& from,
-                     const Vec2& to) noexcept {
+PushConstraint constraint_of(const SearchContact& contact, const Vec2& from,
+                             const Vec2& to) noexcept {
   const Vec2 e = from - to;  // of the object in the hand
   const double e_n = e.dot(contact.stick.n);
-  if (e_n < 0.0) return Obstacle::kBackwards;
+  if (e_n < 0.0) return PushConstraint::kBackwards;
   const bool flat = std::abs(e.dot(contact.stick.t)) > contact.stick.mu * e_n;
-  return flat ? Obstacle::kFrictionCone : Obstacle::kFaceEnds;
+  return flat ? PushConstraint::kFrictionCone : PushConstraint::kFaceEnds;
 }
 
 std::optional<Move> direct_move(const SearchModel& search, const FlatState& from,

@@ -30,7 +30,7 @@ struct Work {
   std::int64_t stick_tests = 0;
   std::int64_t propagations = 0;
   std::int64_t budget = 0;
-  Obstacles obstacles;             ///< what stopped the pushes tried
+  ConstraintCounts stopped_by;     ///< what stopped the pushes tried
   ProgressMeter* meter = nullptr;  ///< told how far the search is, if there is one
   const std::atomic<bool>* stop = nullptr;  ///< as in PlanOptions
   bool interrupted() const { return stop && stop->load(std::memory_order_relaxed); }
@@ -91,8 +91,8 @@ bool move_sticks(const SearchModel& search, int contact, const FlatState& from,
 
 /// What keeps a contact from a straight move that sticks for no rotation, by the nominal
 /// direction alone. No heap.
-Obstacle obstacle_of(const SearchContact& contact, const Vec2& from,
-                     const Vec2& to) noexcept;
+PushConstraint constraint_of(const SearchContact& contact, const Vec2& from,
+                             const Vec2& to) noexcept;
 
 /// The contact that does the move (preferring `preferred`, else the first), if any. No
 /// heap.

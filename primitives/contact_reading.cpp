@@ -66,6 +66,17 @@ bool recedes_somewhere(const PlanarDrive& drive) noexcept {
   return false;
 }
 
+Sample sample_of(const ContactReading& reading, InstantStatus status,
+                 double push_force) noexcept {
+  Sample sample;
+  sample.push_force = push_force;
+  sample.normal_force = reading.normal_force;
+  sample.tangential_force = reading.tangential_force;
+  sample.slip_rate = reading.slip;
+  sample.status = status;
+  return sample;
+}
+
 Obstacle obstacle_of(InstantStatus status) noexcept {
   using enum TransitionStatus;
   switch (status) {

@@ -67,6 +67,10 @@ Regime slip_side_of(const ContactReading& reading, const ContactScales& scales) 
 /// to be unique; a receding point may drag the object along or leave it.
 bool recedes_somewhere(const PlanarDrive& drive) noexcept;
 
+/// The part of a sample that the contact and its instant tell.
+Sample sample_of(const ContactReading& reading, InstantStatus status,
+                 double push_force) noexcept;
+
 /// Why a push cannot go on with an instant of this status.
 Obstacle obstacle_of(InstantStatus status) noexcept;
 

@@ -76,6 +76,29 @@ struct DoubledStep {
   }
 };
 
+/// The second half of `step` after its first, and what both say of the whole; a base step
+/// is as `doubled` describes it, and so is what this returns.
+template <class Method, class Rate, class EndRate>
+double second_half(const Method& method, const Rate& rate, const EndRate& end_rate,
+                   const BaseStep& first, BaseStep& last, DoubledStep& step) {
+  constexpr double kDone = std::numeric_limits<double>::infinity();
+  last.s = step.s + first.h;
+  last.h = step.h - first.h;
+  last.y = first.y_end;
+  last.rate = first.rate_end;
+  const auto rate_to_end = [&](double s, const Vec2& y, Vec2& out) {
+    return last.ends ? end_rate(s, y, out) : rate(s, y, out);
+  };
+  if (const double failed = method(rate_to_end, last); failed != kDone) return failed;
+  step.y_middle = first.y_end;
+  step.rate_middle = first.rate_end;
+  step.y_end = last.y_end;
+  step.rate_end = last.rate_end;
+  step.probe = last.probe;
+  step.probe_rate = last.probe_rate;
+  return kDone;
+}
+
 /// Fills `step` from step.s, step.h, step.y and step.rate. `method(rate, base)` fills a
 /// base step and returns the s at which there is no rate, or infinity; so does this.
 /// `end_rate` is called last, at the end of the step. `order` is the power of its length
@@ -106,20 +129,10 @@ double doubled(const Method& method, const Rate& rate, const EndRate& end_rate,
   first.ends = false;
   if (const double failed = method(rate, first); failed != kDone) return failed;
   BaseStep last;
-  last.s = step.s + first.h;
-  last.h = step.h - first.h;
-  last.y = first.y_end;
-  last.rate = first.rate_end;
-  const auto rate_to_end = [&](double s, const Vec2& y, Vec2& out) {
-    return last.ends ? end_rate(s, y, out) : rate(s, y, out);
-  };
-  if (const double failed = method(rate_to_end, last); failed != kDone) return failed;
-  step.y_middle = first.y_end;
-  step.rate_middle = first.rate_end;
-  step.y_end = last.y_end;
-  step.rate_end = last.rate_end;
-  step.probe = last.probe;
-  step.probe_rate = last.probe_rate;
+  if (const double failed = second_half(method, rate, end_rate, first, last, step);
+      failed != kDone) {
+    return failed;
+  }
   // Smooth: the embedded errors of the halves together are 2^(order - 2) times smaller.
   const double embedded = first.error.norm() + last.error.norm();
   const Vec2 difference = whole.y_end - step.y_end;
@@ -153,20 +166,10 @@ double halved(const Method& method, const Rate& rate, const EndRate& end_rate,
   step.gave_up = is_hopeless(first.error);
   if (step.gave_up) return kDone;
   BaseStep last;
-  last.s = step.s + first.h;
-  last.h = step.h - first.h;
-  last.y = first.y_end;
-  last.rate = first.rate_end;
-  const auto rate_to_end = [&](double s, const Vec2& y, Vec2& out) {
-    return last.ends ? end_rate(s, y, out) : rate(s, y, out);
-  };
-  if (const double failed = method(rate_to_end, last); failed != kDone) return failed;
-  step.y_middle = first.y_end;
-  step.rate_middle = first.rate_end;
-  step.y_end = last.y_end;
-  step.rate_end = last.rate_end;
-  step.probe = last.probe;
-  step.probe_rate = last.probe_rate;
+  if (const double failed = second_half(method, rate, end_rate, first, last, step);
+      failed != kDone) {
+    return failed;
+  }
   step.embedded = first.error.cwiseAbs() + last.error.cwiseAbs();
   return kDone;
 }

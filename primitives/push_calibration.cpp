@@ -32,19 +32,6 @@ FitParameter friction_parameter(std::string name, double value) {
           .tries = {0.5 * start, 0.7 * start, std::min(1.5 * start, 2.0)}};
 }
 
-struct Resize {
-  double factor;
-  void operator()(DiscPad& disc) const { disc.radius *= factor; }
-  void operator()(RectanglePad& rectangle) const { rectangle.size *= factor; }
-  void operator()(LinePad& line) const { line.length *= factor; }
-  void operator()(PolygonPad& polygon) const {
-    for (Vec2& v : polygon.outline) v *= factor;
-  }
-  void operator()(PointPad& point) const {
-    if (point.spin_radius) *point.spin_radius *= factor;
-  }
-};
-
 bool has_torque(const Pad& pad) {
   const auto* point = std::get_if<PointPad>(&pad);
   return !point || point->spin_radius.has_value();
@@ -276,7 +263,7 @@ Scene with_values(const Scene& scene, const std::vector<CalibrationTarget>& targ
         out.gripper.pressure.edge_load = value;
         break;
       case Target::kTorqueRadius:
-        std::visit(Resize{value}, out.gripper.pad);
+        out.gripper.pad = resized(out.gripper.pad, value);
         break;
       case Target::kRegistrationX:
       case Target::kRegistrationY:

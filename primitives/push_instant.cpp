@@ -176,14 +176,9 @@ void PushInstant::read(const Seat& seat, Answer& answer) const noexcept {
 
 Sample PushInstant::sample(double s, double psi) const {
   const Answer& now = answer();
-  Sample sample;
+  Sample sample = sample_of(now.contact, now.instant.status, now.instant.push_force);
   sample.s = s;
   sample.grasp = {now.X_HO, psi};
-  sample.push_force = now.instant.push_force;
-  sample.normal_force = now.contact.normal_force;
-  sample.tangential_force = now.contact.tangential_force;
-  sample.slip_rate = now.contact.slip;
-  sample.status = now.instant.status;
   sample.certificate = is_ellipsoid()
                            ? limit_surface_residual(model_->surface(), now.grasp.w_g,
                                                     now.drive, now.instant)

@@ -234,14 +234,9 @@ Obstacle SpatialPushInstant::explained(const Obstacle& obstacle) const noexcept 
 
 Sample SpatialPushInstant::sample(double s, double psi) const {
   const Answer& now = answer();
-  Sample sample;
+  Sample sample = sample_of(now.contact, now.instant.status, now.instant.push_force);
   sample.s = s;
   sample.grasp = {now.X_HO, psi};
-  sample.push_force = now.instant.push_force;
-  sample.normal_force = now.contact.normal_force;
-  sample.tangential_force = now.contact.tangential_force;
-  sample.slip_rate = now.contact.slip;
-  sample.status = now.instant.status;
   sample.certificate = certify(now.problem, now.instant).worst;
   sample.jaw_force = {0.0, 0.0};
   int points = 0;

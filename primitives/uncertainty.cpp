@@ -17,19 +17,6 @@ std::uint64_t mixed(std::uint64_t z) {
   return z ^ (z >> 31);
 }
 
-struct ScalePad {
-  double factor;
-  void operator()(DiscPad& disc) const { disc.radius *= factor; }
-  void operator()(RectanglePad& rectangle) const { rectangle.size *= factor; }
-  void operator()(LinePad& line) const { line.length *= factor; }
-  void operator()(PolygonPad& polygon) const {
-    for (Vec2& v : polygon.outline) v *= factor;
-  }
-  void operator()(PointPad& point) const {
-    if (point.spin_radius) *point.spin_radius *= factor;
-  }
-};
-
 /// Place, direction and travel of a push, where it has them.
 struct MovePush {
   double place, travel, turn_of_direction;
@@ -174,8 +161,8 @@ UncertainPush vary(const Scene& scene, const Grasp& start, const Push& push,
     const ContactRegion pads(scene, 16);
     const double c = pads.torque_radius();
     if (c > 0.0) {
-      std::visit(ScalePad{std::max(1e-3, changed(Unknown::kTorqueRadius, c) / c)},
-                 gripper.pad);
+      const double factor = std::max(1e-3, changed(Unknown::kTorqueRadius, c) / c);
+      gripper.pad = resized(gripper.pad, factor);
     }
   }
   const Vec2 shift(offset(Unknown::kCentreOfMassX), offset(Unknown::kCentreOfMassY));

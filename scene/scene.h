@@ -105,6 +105,9 @@ struct PolygonPad {
 
 using Pad = std::variant<DiscPad, RectanglePad, LinePad, PointPad, PolygonPad>;
 
+/// All its lengths times the factor (> 0).
+Pad resized(const Pad& pad, double factor);
+
 /// How the normal load of a pad spreads over its points when the push shifts it.
 enum class PressureLaw {
   kFoundation,  ///< preloaded elastic foundation; the answer is unique

@@ -14,5 +14,6 @@ endfunction()
 run(${CMAKE_COMMAND} -S ${SOURCE} -B ${BINARY} -G Ninja -DCMAKE_BUILD_TYPE=Release ${arguments})
 run(${CMAKE_COMMAND} --build ${BINARY})
 if(RUN_TESTS)
-  run(${CMAKE_CTEST_COMMAND} --test-dir ${BINARY} -L default --output-on-failure)
+  run(${CMAKE_CTEST_COMMAND} --test-dir ${BINARY} -L default --output-on-failure
+      --no-tests=error)
 endif()

@@ -55,7 +55,7 @@ void expect_same(const Plan& a, const Plan& b) {
   ASSERT_EQ(a.explanation.has_value(), b.explanation.has_value());
   if (a.explanation) {
     EXPECT_EQ(a.explanation->text, b.explanation->text);
-    EXPECT_EQ(a.obstacles.count, b.obstacles.count);
+    EXPECT_EQ(a.stopped_by.count, b.stopped_by.count);
     ASSERT_EQ(a.explanation->changes.size(), b.explanation->changes.size());
     for (std::size_t i = 0; i < a.explanation->changes.size(); ++i) {
       EXPECT_EQ(a.explanation->changes[i].what, b.explanation->changes[i].what);
@@ -94,7 +94,7 @@ TEST(PlanFile, RandomPlansReturnUnchanged) {
       plan.explanation = {"one \"paragraph\"",
                           {{"more grip", "--set gripper.grip_force=9", "", 1.5},
                            {"a wall", "", "{name: wall}", 2.5}}};
-      for (std::int64_t& count : plan.obstacles.count) count = random.below(5);
+      for (std::int64_t& count : plan.stopped_by.count) count = random.below(5);
     }
     plan.seed = random.bits();  // all 64 bits
     const std::string text = plan_to_json({scene.scene, scene.digest, plan});

@@ -115,7 +115,7 @@ TEST(Advice, NamesOnlyChangesThatWork) {
   options.budget = 500'000;
   const Plan plan = plan_regrasp(model, options);
   ASSERT_FALSE(plan.usable());
-  EXPECT_GT(plan.obstacles.total(), 0);
+  EXPECT_GT(plan.stopped_by.total(), 0);
   const Explanation explanation = explain(model, plan, options);
   ASSERT_FALSE(explanation.changes.empty());
   EXPECT_NE(explanation.text.find('%'), std::string::npos) << explanation.text;

@@ -13,8 +13,13 @@ namespace prehensile {
 namespace {
 
 using testing::distance;
+using testing::expect_left_behind;
+using testing::expect_parts_make_whole;
 using testing::has_event;
+using testing::may_be_cut;
 using testing::mirrored;
+using testing::object_at_pusher;
+using testing::part_of;
 
 TEST(PushLaw, MirrorImagesMoveAsMirrorImages) {
   for (int seed = 0; seed < 300; ++seed) {
@@ -24,9 +29,7 @@ TEST(PushLaw, MirrorImagesMoveAsMirrorImages) {
     const Transition one = apply(prepare(c.scene), c.scene.start, c.push, options);
     const Transition other = apply(prepare(m.scene), m.scene.start, m.push, options);
     ASSERT_EQ(one.status, other.status) << seed;
-    EXPECT_NEAR(one.end.X_HO.x, other.end.X_HO.x, 2e-7) << seed;
-    EXPECT_NEAR(one.end.X_HO.y, -other.end.X_HO.y, 2e-7) << seed;
-    EXPECT_NEAR(one.end.X_HO.theta, -other.end.X_HO.theta, 2e-5) << seed;
+    EXPECT_LT(distance(one.end.X_HO, mirrored(other.end.X_HO), 0.01), 2e-7) << seed;
   }
 }
 
@@ -37,21 +40,12 @@ TEST(PushLaw, PushInTwoPartsEndsWhereTheWholePushEnds) {
     const Model model = prepare(c.scene);
     const TransitionOptions options{.tolerance = 1e-8};
     const Transition whole = apply(model, c.scene.start, c.push, options);
-    // Only a push that ends flush may be cut: the second part starts flush.
     if (!whole.completed() || has_event(whole, EventKind::kCorner) ||
-        model.contacts[0].is_point || std::isfinite(model.contacts[0].half_length)) {
+        !may_be_cut(model)) {
       continue;
     }
-    LinearPush first = c.push;
-    first.travel *= 0.4;
-    first.turn *= 0.4;
-    const Transition one = apply(model, c.scene.start, first, options);
-    LinearPush second = c.push;
-    second.travel *= 0.6;
-    second.turn *= 0.6;
-    const Transition two = apply(model, one.end, second, options);
-    ASSERT_TRUE(one.completed() && two.completed()) << seed;
-    EXPECT_LT(distance(two.end.X_HO, whole.end.X_HO, model.c), 1e-7) << seed;
+    SCOPED_TRACE(seed);
+    expect_parts_make_whole(model, c, whole, options, 1e-7);
     ++compared;
   }
   EXPECT_GT(compared, 30);
@@ -69,10 +63,7 @@ TEST(PushLaw, PushOfAPointInTwoPartsEndsWhereTheWholePushEnds) {
     const TransitionOptions options{.tolerance = 1e-9};
     const Transition whole = apply(model, c.scene.start, c.push, options);
     if (!whole.completed()) continue;
-    LinearPush first = c.push;
-    first.travel *= 0.4;
-    first.turn *= 0.4;
-    const Transition one = apply(model, c.scene.start, first, options);
+    const Transition one = apply(model, c.scene.start, part_of(c.push, 0.4), options);
     ASSERT_TRUE(one.completed()) << seed;
     // Where the point and the direction are, seen from the object.
     const PlanarPose X_PO =
@@ -80,11 +71,9 @@ TEST(PushLaw, PushOfAPointInTwoPartsEndsWhereTheWholePushEnds) {
     const PushContact& contact = model.contacts[0];
     const Vec2 p_P = contact.segment(c.push.place).a;
     const Vec2 p_O = transform(inverse(X_PO), p_P);
-    LinearPush second = c.push;
+    LinearPush second = part_of(c.push, 0.6);
     second.place = contact.t.dot(p_O - 0.5 * (contact.a + contact.b));
     second.e = rotated(-X_PO.theta, c.push.e);
-    second.travel *= 0.6;
-    second.turn *= 0.6;
     const Transition two = apply(model, one.end, second, options);
     ASSERT_TRUE(two.completed()) << seed << " " << two.reason;
     EXPECT_LT(distance(two.end.X_HO, whole.end.X_HO, model.c), 1e-7) << seed;
@@ -102,20 +91,12 @@ TEST(PushLaw, RetractingThePusherLeavesAGraspThatHoldsGravity) {
     const Model model = prepare(c.scene);
     const Transition done = apply(model, c.scene.start, c.push);
     if (!done.completed()) continue;
-    const PlanarPose X_PO =
-        compose(inverse(pusher_pose(c.push, c.scene.start.X_HO, 1.0)), done.end.X_HO);
+    const PlanarPose X_PO = object_at_pusher(c, done);
     const Vec2 g_O = rotated(-X_PO.theta, model.contacts[0].g_O);
     EXPECT_GE(gravity_slack(grasp_at(model, done.end.X_HO, g_O)), 0.0) << seed;
     if (std::abs(X_PO.theta) > 0.0) continue;
-    const PlanarPose at_pusher = compose(X_PO, {});
-    LinearPush away{
-        .place = c.push.place - model.contacts[0].t.dot(translation(at_pusher)),
-        .e = -model.contacts[0].n,
-        .travel = 0.005};
-    const Transition left = apply(model, done.end, away);
-    // Friction may drag an object along with a pusher that leaves it askew, not straight.
-    EXPECT_EQ(left.status, TransitionStatus::kPusherLost) << seed << " " << left.reason;
-    EXPECT_LT(distance(left.end.X_HO, done.end.X_HO, 0.1), 1e-15) << seed;
+    SCOPED_TRACE(seed);
+    expect_left_behind(model, c, done);
     ++flush;
   }
   EXPECT_GT(flush, 60);

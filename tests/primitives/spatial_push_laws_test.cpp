@@ -13,7 +13,10 @@ namespace prehensile {
 namespace {
 
 using testing::distance;
+using testing::expect_parts_make_whole;
 using testing::has_event;
+using testing::may_be_cut;
+using testing::mirrored;
 
 constexpr TransitionOptions kFine{.tolerance = 1e-7};
 
@@ -113,15 +116,12 @@ TEST(SpatialPushLaw, MirrorImagesMoveAsMirrorImages) {
   int compared = 0;
   for (int seed = 0; seed < 40; ++seed) {
     const RandomPush c = random_spatial_push(23, seed);
-    const RandomPush m = testing::mirrored(c);
+    const RandomPush m = mirrored(c);
     const Transition one = apply(prepare(c.scene), c.scene.start, c.push, kFine);
     const Transition other = apply(prepare(m.scene), m.scene.start, m.push, kFine);
     ASSERT_EQ(one.status, other.status) << seed << " " << one.reason << other.reason;
     if (!one.completed()) continue;
-    PlanarPose image = other.end.X_HO;
-    image.y *= -1.0;
-    image.theta *= -1.0;
-    EXPECT_LT(distance(one.end.X_HO, image, 0.01), 5e-7) << seed;
+    EXPECT_LT(distance(one.end.X_HO, mirrored(other.end.X_HO), 0.01), 5e-7) << seed;
     ++compared;
   }
   EXPECT_GT(compared, 22);
@@ -132,22 +132,11 @@ TEST(SpatialPushLaw, PushInTwoPartsEndsWhereTheWholePushEnds) {
   for (int seed = 0; seed < 400; ++seed) {
     const RandomPush c = random_spatial_push(24, seed);
     const Model model = prepare(c.scene);
-    // Only a push that ends flush may be cut: the second part starts flush.
-    if (model.contacts[0].is_point || std::isfinite(model.contacts[0].half_length)) {
-      continue;
-    }
+    if (!may_be_cut(model)) continue;
     const Transition whole = apply(model, c.scene.start, c.push, kFine);
     if (!whole.completed() || has_event(whole, EventKind::kCorner)) continue;
-    LinearPush first = c.push;
-    first.travel *= 0.4;
-    first.turn *= 0.4;
-    const Transition one = apply(model, c.scene.start, first, kFine);
-    LinearPush second = c.push;
-    second.travel *= 0.6;
-    second.turn *= 0.6;
-    const Transition two = apply(model, one.end, second, kFine);
-    ASSERT_TRUE(one.completed() && two.completed()) << seed;
-    EXPECT_LT(distance(two.end.X_HO, whole.end.X_HO, model.c), 3e-7) << seed;
+    SCOPED_TRACE(seed);
+    expect_parts_make_whole(model, c, whole, kFine, 3e-7);
     ++compared;
   }
   EXPECT_GT(compared, 30);
@@ -180,16 +169,9 @@ TEST(SpatialPushLaw, RetractingThePusherLeavesAGraspThatHoldsGravity) {
     const Model model = prepare(c.scene);
     const Transition done = apply(model, c.scene.start, c.push);
     if (!done.completed() || model.contacts[0].is_point) continue;
-    const PlanarPose X_PO =
-        compose(inverse(pusher_pose(c.push, c.scene.start.X_HO, 1.0)), done.end.X_HO);
-    if (std::abs(X_PO.theta) > 0.0) continue;
-    const Vec2 moved = translation(X_PO);
-    const LinearPush away{.place = c.push.place - model.contacts[0].t.dot(moved),
-                          .e = -model.contacts[0].n,
-                          .travel = 0.005};
-    const Transition left = apply(model, done.end, away);
-    EXPECT_EQ(left.status, TransitionStatus::kPusherLost) << seed << " " << left.reason;
-    EXPECT_LT(distance(left.end.X_HO, done.end.X_HO, 0.1), 1e-15) << seed;
+    if (std::abs(testing::object_at_pusher(c, done).theta) > 0.0) continue;
+    SCOPED_TRACE(seed);
+    testing::expect_left_behind(model, c, done);
     ++flush;
   }
   EXPECT_GT(flush, 15);

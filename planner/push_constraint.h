@@ -7,7 +7,7 @@
 
 namespace prehensile {
 
-enum class Obstacle {
+enum class PushConstraint {
   kOffObject,     ///< the pads would leave the face on the way
   kGravity,       ///< the grasp alone would not hold the object at an end of the push
   kBackwards,     ///< the motion leads away from the pusher
@@ -17,18 +17,18 @@ enum class Obstacle {
   kRealPads,      ///< sticks by the closed form, but not with the real pads
   kCount
 };
-inline constexpr int kObstacles = static_cast<int>(Obstacle::kCount);
+inline constexpr int kPushConstraints = static_cast<int>(PushConstraint::kCount);
 
 /// "the pads would leave the object", ...
-std::string_view name(Obstacle obstacle);
+std::string_view name(PushConstraint constraint);
 
 /// How often each was met.
-struct Obstacles {
-  std::array<std::int64_t, kObstacles> count{};
+struct ConstraintCounts {
+  std::array<std::int64_t, kPushConstraints> count{};
 
-  void add(Obstacle obstacle) { ++count[static_cast<std::size_t>(obstacle)]; }
-  std::int64_t operator[](Obstacle obstacle) const {
-    return count[static_cast<std::size_t>(obstacle)];
+  void add(PushConstraint constraint) { ++count[static_cast<std::size_t>(constraint)]; }
+  std::int64_t operator[](PushConstraint constraint) const {
+    return count[static_cast<std::size_t>(constraint)];
   }
   std::int64_t total() const {
     std::int64_t sum = 0;
@@ -36,12 +36,12 @@ struct Obstacles {
     return sum;
   }
   /// The most frequent; the first of several.
-  Obstacle worst() const {
+  PushConstraint worst() const {
     std::size_t most = 0;
     for (std::size_t i = 1; i < count.size(); ++i) {
       if (count[i] > count[most]) most = i;
     }
-    return static_cast<Obstacle>(most);
+    return static_cast<PushConstraint>(most);
   }
 };
 

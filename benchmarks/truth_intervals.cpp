@@ -110,13 +110,16 @@ Factors factors_of(const std::vector<Row>& rows, std::size_t level,
                    const Choose& chosen) {
   Factors out{};
   for (int part = 0; part < kParts; ++part) {
-    std::vector<double> needed;
+    std::map<std::string, std::vector<double>> of_shape;
     for (const Row& row : rows) {
       if (!chosen(row.shape)) continue;
-      needed.push_back(
+      of_shape[row.shape].push_back(
           factor_needed(row.spread[level][part], row.floor[part], row.off[part]));
     }
-    out[part] = conformal_factor(needed, kLevels[level]);
+    std::vector<std::vector<double>> needed;
+    needed.reserve(of_shape.size());
+    for (auto& [shape, factors] : of_shape) needed.push_back(std::move(factors));
+    out[part] = conformal_factor_of_groups(needed, kLevels[level]);
   }
   return out;
 }

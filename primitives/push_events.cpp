@@ -17,10 +17,6 @@ constexpr double kRoundOff = 1e-12;
 /// Share of a step to which limits are met: as closely as numbers allow.
 constexpr double kResolution = 1e-11;
 
-/// Share of the wanted location to which changes of contact mode are located. Rates do
-/// not jump there, so that they cost less than that.
-constexpr double kModeResolution = 0.01;
-
 /// Where in a step the defect of its polynomial changes fastest.
 constexpr double kSteepest = 0.09;
 
@@ -79,8 +75,7 @@ Crossing PushRun<Instant>::first_crossing() {
     return found ? mode_margin() : -1.0;
   };
   instant_.set_aside();
-  const double resolution =
-      std::max(kResolution, kModeResolution * control_.location() / step_.h);
+  const double resolution = std::max(kResolution, control_.location() / step_.h);
   // Beyond the root, where the next mode holds already.
   const double at = std::min(
       high, falling_root(margin, low, margin_at_low, high, margin_at_high, resolution) +

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace prehensile {
@@ -44,6 +45,50 @@ double conformal_factor(std::vector<double> needed, double level) {
   const auto at = std::max<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(rank) - 1);
   std::nth_element(needed.begin(), needed.begin() + at, needed.end());
   return needed[static_cast<std::size_t>(at)];
+}
+
+namespace {
+
+/// All groups but one; `left_out` < 0: all.
+std::vector<double> pooled(const std::vector<std::vector<double>>& groups, int left_out) {
+  std::vector<double> out;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (static_cast<int>(g) == left_out) continue;
+    out.insert(out.end(), groups[g].begin(), groups[g].end());
+  }
+  return out;
+}
+
+/// Mean share of each group that the factor of the others covers.
+double coverage_of_new_groups(const std::vector<std::vector<double>>& groups,
+                              double level) {
+  double sum = 0.0;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const double factor = conformal_factor(pooled(groups, static_cast<int>(g)), level);
+    const auto covered = std::count_if(groups[g].begin(), groups[g].end(),
+                                       [&](double needed) { return needed <= factor; });
+    sum += static_cast<double>(covered) / static_cast<double>(groups[g].size());
+  }
+  return sum / static_cast<double>(groups.size());
+}
+
+}  // namespace
+
+double conformal_factor_of_groups(const std::vector<std::vector<double>>& needed,
+                                  double level) {
+  std::vector<std::vector<double>> groups;
+  std::copy_if(needed.begin(), needed.end(), std::back_inserter(groups),
+               [](const auto& group) { return !group.empty(); });
+  double low = level;
+  if (groups.size() >= 2 && coverage_of_new_groups(groups, low) < level) {
+    double high = 1.0;
+    for (int i = 0; i < 30; ++i) {
+      const double middle = 0.5 * (low + high);
+      (coverage_of_new_groups(groups, middle) < level ? low : high) = middle;
+    }
+    low = high;
+  }
+  return conformal_factor(pooled(groups, -1), low);
 }
 
 }  // namespace prehensile

@@ -35,4 +35,11 @@ double factor_needed(const SpreadQuantiles& spread, double floor, double value);
 /// probability: the ceil((n + 1) level)-th smallest; infinite if there are too few.
 double conformal_factor(std::vector<double> needed, double level);
 
+/// The same for a push of none of these groups (another object): pushes of one object are
+/// more alike than those of two. The level is raised until, each group left out in turn,
+/// the factor of the others covers this share of it on average; fewer than two groups
+/// cannot tell, and are pooled.
+double conformal_factor_of_groups(const std::vector<std::vector<double>>& needed,
+                                  double level);
+
 }  // namespace prehensile

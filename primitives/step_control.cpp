@@ -10,6 +10,11 @@ namespace {
 /// a jump of the rate enforces, are rare.
 constexpr double kLeastShare = 0.05;
 
+/// Wanted over largest length of the next step. What made a step fail often lies just
+/// ahead and is worse than the error of the longer step told.
+constexpr double kCaution = 0.8;
+constexpr double kCautionAfterRefusal = 0.7;
+
 }  // namespace
 
 StepControl::StepControl(double tolerance, double longest, double location)
@@ -38,7 +43,9 @@ bool StepControl::accepts(double h, double error, int order) {
   if (!accepted) blocked_ = kNever;
   // A step that was cut for another reason says nothing about longer ones.
   if (!accepted || h >= 0.999 * natural_) {
-    const double factor = 0.9 * std::pow(allowed / std::max(error, 1e-300), 1.0 / order);
+    const double caution = accepted ? kCaution : kCautionAfterRefusal;
+    const double factor =
+        caution * std::pow(allowed / std::max(error, 1e-300), 1.0 / order);
     const double most = was_refused_ ? 1.0 : 3.0;
     natural_ = std::clamp(h * std::clamp(factor, 0.2, most), 0.5 * location_, longest_);
   }

@@ -58,5 +58,48 @@ TEST(SpreadInterval, TooFewPushesHaveNoFactor) {
   EXPECT_EQ(conformal_factor({1.0, 2.0, 3.0}, 0.75), 3.0);
 }
 
+// Objects differ more than the pushes of one object: pooled pushes then cover a new
+// object less often than they say; groups come closer.
+TEST(SpreadInterval, FactorsOfGroupsCoverNewGroups) {
+  RandomStream random(3);
+  constexpr double kLevel = 0.8;
+  constexpr int kTrials = 400;
+  constexpr int kPushes = 60;
+  double by_groups = 0.0;
+  double by_pool = 0.0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const auto object = [&] {
+      const double scale = std::exp(random.in(-0.6, 0.6));
+      std::vector<double> needed(kPushes);
+      for (double& value : needed) value = scale * random.in(0.0, 1.0);
+      return needed;
+    };
+    std::vector<std::vector<double>> groups;
+    std::vector<double> pool;
+    for (int g = 0; g < 5; ++g) {
+      groups.push_back(object());
+      pool.insert(pool.end(), groups.back().begin(), groups.back().end());
+    }
+    const std::vector<double> other = object();
+    const auto share = [&](double factor) {
+      return static_cast<double>(std::count_if(other.begin(), other.end(),
+                                               [&](double v) { return v <= factor; })) /
+             kPushes;
+    };
+    by_groups += share(conformal_factor_of_groups(groups, kLevel)) / kTrials;
+    by_pool += share(conformal_factor(pool, kLevel)) / kTrials;
+    EXPECT_GE(conformal_factor_of_groups(groups, kLevel), conformal_factor(pool, kLevel));
+  }
+  EXPECT_LT(by_pool, kLevel - 0.01);
+  EXPECT_NEAR(by_groups, kLevel, 0.02);
+}
+
+TEST(SpreadInterval, OneGroupIsPooled) {
+  const std::vector<double> needed{1.0, 2.0, 3.0, 4.0};
+  EXPECT_EQ(conformal_factor_of_groups({needed}, 0.5), conformal_factor(needed, 0.5));
+  EXPECT_EQ(conformal_factor_of_groups({needed, {}}, 0.5), conformal_factor(needed, 0.5));
+  EXPECT_TRUE(std::isinf(conformal_factor_of_groups({}, 0.5)));
+}
+
 }  // namespace
 }  // namespace prehensile

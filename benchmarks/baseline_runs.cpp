@@ -1,5 +1,6 @@
 #include "benchmarks/baseline_runs.h"
 
+#include <array>
 #include <numbers>
 
 #include "benchmarks/measure.h"
@@ -14,13 +15,16 @@
 namespace prehensile::benchmarks {
 namespace {
 
-/// The walls as they stand where gravity is to act along -y of W in this attitude.
+/// The walls as they stand where gravity is to act along -y of W in this attitude; each
+/// still touches the face that it touched.
 void set_gravity(Scene& scene, int attitude) {
   constexpr double kQuarter = 0.5 * std::numbers::pi;
+  constexpr std::array<const char*, 3> kFaces{"-x", "-y", "+y"};
   if (attitude == 0) scene.g_W = Vec2::Zero();
   if (attitude < 2) return;
-  for (Pusher& pusher : scene.pushers) {
-    pusher.normal_angle = attitude == 2 ? 0.0 : kQuarter;
+  for (std::size_t i = 0; i < scene.pushers.size(); ++i) {
+    scene.pushers[i].faces = {kFaces[i]};
+    scene.pushers[i].normal_angle = attitude == 2 ? 0.0 : kQuarter;
   }
 }
 

@@ -181,7 +181,7 @@ Score score_of(const std::vector<Run>& runs) {
     ++score.solved;
     score.log_cost += std::log(run.plan.cost);
   }
-  score.log_cost /= std::max(1, score.solved);
+  score.log_cost = score.solved > 0 ? score.log_cost / score.solved : kNan;
   return score;
 }
 

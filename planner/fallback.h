@@ -2,18 +2,20 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
-#include "planner/catalogue.h"
-#include "planner/limits.h"
+#include "planner/planner.h"
+#include "planner/steering.h"
 
 namespace prehensile {
 
-/// The planner that carries on: of all baselines the one that finds most
-/// (docs/benchmarks.md), in builds without OMPL, and for objects that can roll, of ours.
-const char* fallback_planner(const Model& model);
+/// The planner that carries on: of all baselines, OMPL's included, the one that solves
+/// most of the wide problems, and in the least time (docs/benchmarks.md).
+inline constexpr const char* kFallbackPlanner = "random-shooting";
 
-/// Moves in the pad plane found by the fallback with `budget` units of work, shortened.
-/// `goal` fixes no roll angle. The same for the same seed and budget.
+/// Moves in the pad plane found by the fallback with `budget` units of work, then joined
+/// and shortened by the means of the exact stages. `goal` fixes no roll angle. The same
+/// for the same seed and budget.
 std::optional<std::vector<Move>> fall_back(const SearchModel& search, const Grasp& start,
                                            const Goal& goal, const PlanOptions& options,
                                            std::int64_t budget, Work& work);

@@ -24,6 +24,17 @@ struct Stretch {
   std::vector<double> way_points;  // x, y of p_OF between the pushes
 };
 
+int search_contact(const SearchModel& search, const LinearPush& push) {
+  for (std::size_t i = 0; i < search.contacts.size(); ++i) {
+    const SearchContact& contact = search.contacts[i];
+    if (contact.contact == push.contact && push.place >= contact.place_low - 1e-9 &&
+        push.place <= contact.place_high + 1e-9) {
+      return static_cast<int>(i);
+    }
+  }
+  return -1;
+}
+
 /// The chain of a stretch through these way-points, solved; false if there is none.
 bool chain_of(const Steering& steering, const Stretch& stretch,
               std::span<const double> way_points, Work& work, Chain& chain) {
@@ -89,7 +100,7 @@ bool read_stretch(const SearchModel& search, std::span<const PlannedPush> pushes
   stretch.end = flat_state(pushes.back().end);
   stretch.psi = pushes.front().start.psi;
   for (std::size_t i = 0; i < pushes.size(); ++i) {
-    stretch.contacts.push_back(search_contact_of(search, as_linear(pushes[i].push)));
+    stretch.contacts.push_back(search_contact(search, as_linear(pushes[i].push)));
     if (stretch.contacts.back() < 0) return false;
     if (i + 1 == pushes.size()) break;
     const Vec2 p_OF = finger_in_object(pushes[i].end.X_HO);

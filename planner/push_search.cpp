@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "planner/bounds.h"
+#include "planner/catalogue.h"
 #include "planner/chain_search.h"
 #include "planner/fallback.h"
 #include "planner/fan_search.h"
@@ -132,7 +133,7 @@ bool plan_in_shares(const SearchModel& search, const Grasp& start, const Goal& g
   const auto moves = fall_back(search, start, goal, options, of_fallback, work);
   if (!moves) return false;
   for (const Move& move : *moves) append_move(search, move, plan);
-  plan.planner += std::string("+") + fallback_planner(*search.model);
+  plan.planner += std::string("+") + kFallbackPlanner;
   return true;
 }
 

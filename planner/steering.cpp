@@ -183,17 +183,6 @@ LinearPush push_of(const SearchModel& search, const Move& move) noexcept {
   return push;
 }
 
-int search_contact_of(const SearchModel& search, const LinearPush& push) noexcept {
-  for (std::size_t i = 0; i < search.contacts.size(); ++i) {
-    const SearchContact& contact = search.contacts[i];
-    if (contact.contact == push.contact && push.place >= contact.place_low - 1e-9 &&
-        push.place <= contact.place_high + 1e-9) {
-      return static_cast<int>(i);
-    }
-  }
-  return -1;
-}
-
 bool move_sticks(const SearchModel& search, int contact, const FlatState& from,
                  const FlatState& to, Work& work) noexcept {
   return passes_closed_form(search, contact, from, to, work) &&

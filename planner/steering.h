@@ -83,9 +83,6 @@ PlanarPose pose_along(const FlatState& from, const FlatState& to, double s) noex
 /// of pressure of the real pad lies at the middle of the move.
 LinearPush push_of(const SearchModel& search, const Move& move) noexcept;
 
-/// The contact of the search that does this push; -1 if none does.
-int search_contact_of(const SearchModel& search, const LinearPush& push) noexcept;
-
 /// Whether the straight move from -> to is a sticking push of this contact for the whole
 /// box of uncertainty, stays on the object, and holds gravity at both ends. Directed: the
 /// reverse move is another question. A move that goes nowhere is no push: false. No heap.

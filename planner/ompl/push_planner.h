@@ -22,8 +22,7 @@ class PushPlanner : public ompl::base::Planner {
   /// Plans from the first start state to the goal of the problem definition, which must
   /// be a PushGoal. The search cannot poll a condition, so it runs in rounds of growing
   /// budgets with the condition asked between them: it may take twice as long as allowed,
-  /// and the plan is that of the first round that finds one. Without the fallback on
-  /// other planners of OMPL.
+  /// and the plan is that of the first round that finds one. Without the fallback.
   ompl::base::PlannerStatus solve(
       const ompl::base::PlannerTerminationCondition& condition) override;
 

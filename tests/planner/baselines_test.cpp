@@ -39,14 +39,14 @@ TEST(Baselines, EveryPushIsDoneInItsDirection) {
   for (const std::string& planner : {kTree, kShooting}) {
     for (int i = 0; i < 24; ++i) {
       const Model model = prepare(i < 12 ? wide(i) : published_tee(i));
-      const Plan plan = searched(model, {.planner = planner, .budget = 20'000});
+      const Plan plan = searched(model, {.planner = planner, .budget = 5000});
       if (plan.status != PlanStatus::kReachedGoal) continue;
       ++solved;
       testing::expect_executable(model, plan, directions);
     }
   }
   EXPECT_GT(solved, 30);
-  EXPECT_GT(directions.pushes, 60);
+  EXPECT_GT(directions.pushes, 40);
   EXPECT_LT(directions.reversible, directions.pushes / 4);
 }
 
@@ -126,7 +126,7 @@ TEST(Baselines, RollsAreAdded) {
       const RandomRegrasp regrasp = random_regrasp(RegraspFamily::kCylinder, 1, i);
       if (!regrasp.scene.goal->psi) continue;
       const Model model = prepare(regrasp.scene);
-      const Plan plan = plan_regrasp(model, {.planner = planner, .budget = 100'000});
+      const Plan plan = plan_regrasp(model, {.planner = planner, .budget = 5000});
       if (!plan.usable()) continue;
       EXPECT_TRUE(replay(model, plan).agrees);
       return;

@@ -92,7 +92,7 @@ TEST(PushSteps, ProjectionIsTheClosestMotion) {
     ++compared;
     EXPECT_GT(way.dot(wanted), best - 2e-3);
   }
-  EXPECT_GT(compared, 50);
+  EXPECT_GT(compared, 30);
 }
 
 TEST(PushSteps, AimsGoToTheirStateOrAsCloseAsOnePushComes) {
@@ -143,7 +143,7 @@ TEST(PushSteps, BlindControlsMeanTheSlopeItself) {
     EXPECT_LT((again->to.flat.p_OF - step->to.flat.p_OF).norm(), 1e-9);
   }
   EXPECT_GT(done, 100);
-  EXPECT_GT(done_steered, 2 * done);
+  EXPECT_GT(2 * done_steered, 3 * done);
 }
 
 TEST(PushSteps, TheBoxHoldsStartAndGoalWithHalfATurnToSpare) {

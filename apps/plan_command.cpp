@@ -8,6 +8,7 @@
 #include "apps/arm_options.h"
 #include "apps/commands.h"
 #include "apps/plan_report.h"
+#include "apps/planner_options.h"
 #include "apps/progress_line.h"
 #include "apps/push_options.h"
 #include "apps/table.h"
@@ -31,6 +32,7 @@ void request_stop(int signal) {
 struct Options {
   SceneOptions scene;
   PlanOptions plan;
+  PlannerChoice planner;
   ArmOptions arm;
   std::string output = "plan.json";
   double margin = 1.0;
@@ -54,6 +56,7 @@ void set_margin(const Options& options, const Model& model, PlanOptions& plan) {
 Plan planned(const Options& options, const Model& model) {
   ProgressLine line(options.progress_seconds);
   PlanOptions plan_options = options.plan;
+  set_planner(options.planner, plan_options);
   set_margin(options, model, plan_options);
   plan_options.polish = !options.no_polish;
   plan_options.stop = &stop_requested;
@@ -111,14 +114,12 @@ Command add_plan(CLI::App& app) {
   add_scene_options(command, options->scene);
   command.add_option("-o,--output", options->output, "plan file to write")
       ->capture_default_str();
-  command.add_option("--planner", options->plan.planner, "which planner searches")
-      ->check(CLI::IsMember(planner_names()))
-      ->capture_default_str();
+  add_planner_options(command, options->planner);
   command.add_option("--seed", options->plan.seed, "of every random choice")
       ->capture_default_str();
   command
       .add_option("--budget", options->plan.budget,
-                  "work: stick tests (own planner) or propagations (OMPL's)")
+                  "work: stick tests, and propagations of the other planners")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000'000}))
       ->capture_default_str();
   command

@@ -13,7 +13,8 @@ namespace prehensile {
 /// Whether OMPL is built in.
 bool frame_is_built();
 
-/// Names of the planners that the frame runs; "push" is our own. Empty if not built.
+/// Names of the planners that the frame runs (catalogue.h): "push", our own, and OMPL's.
+/// Empty if not built.
 std::vector<std::string> frame_planners();
 
 /// Runs the planner of `options` in OMPL's frame. The plan holds pushes with their start

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <chrono>
 
+#include "planner/baselines.h"
 #include "planner/bounds.h"
+#include "planner/catalogue.h"
 #include "planner/exact_check.h"
 #include "planner/frame.h"
 #include "planner/polish.h"
@@ -14,13 +16,14 @@
 namespace prehensile {
 namespace {
 
-constexpr const char* kOwnPlanner = "push";
-
 /// Of a time limit, for plans with a margin; the rest is for those without.
 constexpr double kShareOfTime = 0.7;
 
 Plan search_plan(const SearchModel& search, const PlanOptions& options, Work& work) {
   const Scene& scene = search.model->scene;
+  if (find_planner(options.planner)->family == PlannerFamily::kBaseline) {
+    return search_by_baseline(search, scene.start, *scene.goal, options, work);
+  }
   if (frame_is_built()) {
     return solve_in_frame(search, scene.start, *scene.goal, options, work);
   }
@@ -197,10 +200,10 @@ Plan decide(const Model& model, const PlanOptions& options) {
   plan.promise = plan.margin.is_none() ? Promise::kNominal : options.promise;
   plan.planner = options.planner;
   plan.seed = options.seed;
-  const std::vector<std::string> names = planner_names();
-  if (std::find(names.begin(), names.end(), options.planner) == names.end()) {
+  const std::string fault = planner_fault(options.planner, options.settings);
+  if (!fault.empty()) {
     plan.status = PlanStatus::kUnsupported;
-    plan.message = "there is no planner " + options.planner + " in this build";
+    plan.message = fault;
     return plan;
   }
   if (!model.scene.goal) {
@@ -232,14 +235,6 @@ Plan decide(const Model& model, const PlanOptions& options) {
 }
 
 }  // namespace
-
-std::vector<std::string> planner_names() {
-  std::vector<std::string> names = {kOwnPlanner};
-  for (const std::string& name : frame_planners()) {
-    if (name != kOwnPlanner) names.push_back(name);
-  }
-  return names;
-}
 
 Plan plan_regrasp(const Model& model, const PlanOptions& options) {
   const auto begin = std::chrono::steady_clock::now();

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,18 +14,23 @@
 
 namespace prehensile {
 
+/// Options of a planner by name (catalogue.h); those that are not set have their default.
+using PlannerSettings = std::map<std::string, double>;
+
 struct PlanOptions {
   std::string planner = "push";  ///< see planner_names(); "push" is our own
+  PlannerSettings settings;      ///< of this planner
   std::uint64_t seed = 1;
   std::int64_t budget =
-      20'000'000;           ///< stick tests (own planner) or propagations (stock)
+      20'000'000;           ///< stick tests, and propagations of the other planners
   double time_limit = 0.0;  ///< [s]; 0: none. The only way in which the clock decides
   /// Plan for this box, doubled once if the exact check fails; unset: for usual_box().
   std::optional<Margin> margin;
   Promise promise = Promise::kMargin;  ///< what the margin is, for the plan's record
   /// Where no plan survives the margin, look for one that has none and say so.
   bool nominal_if_needed = true;
-  bool improve = false;  ///< search on, with the whole budget, after the first plan
+  bool improve = false;  ///< search on, with the whole budget, after the first plan;
+                         ///< of the others, those that can
   bool polish = true;    ///< shorten the plan found with NLopt, where built
   TransitionOptions transition;  ///< of the exact check
   /// Set by a signal handler: give up cleanly, with the best plan found so far.

@@ -5,7 +5,9 @@
 #include <limits>
 
 #include "planner/bounds.h"
+#include "planner/catalogue.h"
 #include "planner/chain_search.h"
+#include "planner/fallback.h"
 #include "planner/fan_search.h"
 #include "planner/holding.h"
 #include "planner/roll_step.h"
@@ -15,6 +17,7 @@ namespace prehensile {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr const char* kOwnPlanner = "push";
 
 double flat_distance(const SearchModel& search, const FlatState& a, const FlatState& b) {
   return std::hypot((b.p_OF - a.p_OF).norm(), search.model->c * (b.theta - a.theta));
@@ -111,6 +114,29 @@ void say_undecided(const Limits& limits, Plan& plan) {
             "smaller margin may admit one";
 }
 
+/// The exact stages with their share of the budget, then the fallback with its own.
+bool plan_in_shares(const SearchModel& search, const Grasp& start, const Goal& goal,
+                    const PlanOptions& options, Work& work, Plan& plan) {
+  const Limits limits(options, work);
+  const double share =
+      setting(*find_planner(kOwnPlanner), options.settings, "fallback_share");
+  const std::int64_t whole = work.budget;
+  const std::int64_t left = whole - work.stick_tests - work.propagations;
+  const auto of_fallback = static_cast<std::int64_t>(share * static_cast<double>(left));
+  work.budget -= of_fallback;
+  const bool exact = plan_in_plane(search, start, goal, limits, work, plan);
+  work.budget = whole;
+  if (exact || of_fallback <= 0 || limits.reached() || search.contacts.empty()) {
+    return exact;
+  }
+  if (work.meter) work.meter->enter("fallback");
+  const auto moves = fall_back(search, start, goal, options, of_fallback, work);
+  if (!moves) return false;
+  for (const Move& move : *moves) append_move(search, move, plan);
+  plan.planner += std::string("+") + kFallbackPlanner;
+  return true;
+}
+
 }  // namespace
 
 std::optional<Move> direct_push(const SearchModel& search, const FlatState& start,
@@ -154,26 +180,30 @@ void append_move(const SearchModel& search, const Move& move, Plan& plan) {
   plan.goal = plan.pushes.back().end;
 }
 
+void conclude_search(const SearchModel& search, const Goal& goal,
+                     const PlanOptions& options, bool found, const Limits& limits,
+                     Plan& plan) {
+  if (!found) return say_undecided(limits, plan);
+  const double dpsi = roll_needed(goal, plan.start.psi);
+  if (dpsi != 0.0 &&
+      !insert_roll(*search.model, dpsi, search.margin, options.transition, plan)) {
+    plan.status = PlanStatus::kBudgetSpent;
+    plan.message = "no contact rolls the object at any pose of the plan";
+    return;
+  }
+  plan.status = PlanStatus::kReachedGoal;
+}
+
 Plan search_pushes(const SearchModel& search, const Grasp& start, const Goal& goal,
                    const PlanOptions& options, Work& work) {
   Plan plan = blank_plan(search, start, options);
   const Limits limits(options, work);
   const Goal planar = planar_goal(goal);
-  const bool in_plane =
-      reaches(planar, start) || plan_in_plane(search, start, planar, limits, work, plan);
+  const bool in_plane = reaches(planar, start) ||
+                        plan_in_shares(search, start, planar, options, work, plan);
   plan.stick_tests = work.stick_tests;
-  if (!in_plane) {
-    say_undecided(limits, plan);
-    return plan;
-  }
-  const double dpsi = roll_needed(goal, start.psi);
-  if (dpsi != 0.0 &&
-      !insert_roll(*search.model, dpsi, search.margin, options.transition, plan)) {
-    plan.status = PlanStatus::kBudgetSpent;
-    plan.message = "no contact rolls the object at any pose of the plan";
-    return plan;
-  }
-  plan.status = PlanStatus::kReachedGoal;
+  plan.propagations = work.propagations;
+  conclude_search(search, goal, options, in_plane, limits, plan);
   return plan;
 }
 

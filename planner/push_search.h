@@ -9,19 +9,27 @@
 
 #include "planner/frame.h"
 #include "planner/goal.h"
+#include "planner/limits.h"
 
 namespace prehensile {
 
 /// Plans from `start` to `goal`, in order of effort: one push; two pushes through a
 /// crossing of cone lines; two pushes through a lattice node; a best-first search over
-/// the lattice. Every push of the answer sticks with the real pad over the margin box of
-/// `search`.
+/// the lattice; and with the share of the budget that its option `fallback_share` says,
+/// a baseline (fallback.h), whose plan is shortened by the same means. Every push of the
+/// answer sticks with the real pad over the margin box of `search`.
 ///
 /// Status: kReachedGoal (pushes with start and end poses; forces and certificates still
 /// unset), kBudgetSpent, kStopped, kUnsupported (a roll is wanted and none is possible).
 /// The stage of the direct push uses no heap.
 Plan search_pushes(const SearchModel& search, const Grasp& start, const Goal& goal,
                    const PlanOptions& options, Work& work);
+
+/// Ends a search in the pad plane: adds the roll that the goal wants and sets the status,
+/// with the limit that ended it where it found nothing.
+void conclude_search(const SearchModel& search, const Goal& goal,
+                     const PlanOptions& options, bool found, const Limits& limits,
+                     Plan& plan);
 
 /// The shortest single push to a place of the goal set, by the contact with the most
 /// slack. No heap.

@@ -19,14 +19,25 @@ namespace ob = ompl::base;
 
 using Clock = std::chrono::steady_clock;
 
-/// A planner that improves until stopped gets this many times the work of its first
+constexpr const char* kOwn = "push";
+
+/// A planner that improves its plans gets this many times the work of its first
 /// solution, and at least so many propagations.
 constexpr std::int64_t kImprovement = 10;
-constexpr std::int64_t kLeastImprovement = 10'000;
+constexpr std::int64_t kLeastImprovement = 2'000;
 
-/// So many questions whether to end, without a single propagation between them, mean
-/// that the planner will never push anything.
-constexpr std::int64_t kMostIdleTurns = 10'000;
+/// So many questions whether to end, without a single propagation between them, mean that
+/// the planner will never push anything. (Some look through thousands of edges between
+/// two motions.) Nor may it ask more often than this for each propagation of its budget:
+/// AIT* may search for milliseconds before it tries one motion.
+constexpr std::int64_t kMostIdleTurns = 100'000;
+constexpr std::int64_t kTurnsPerPropagation = 2;
+constexpr std::int64_t kFreeTurns = 1000;
+constexpr std::int64_t kMostBudget = std::int64_t{1} << 60;
+
+/// A planner that has a plan and draws so many states without finding a motion worth a
+/// look will find none.
+constexpr std::int64_t kMostIdleStates = 3'000;
 
 /// OMPL's seeds are never 0 and have 32 bits; neighbouring seeds give unrelated streams.
 std::uint_fast32_t ompl_seed(std::uint64_t seed) {
@@ -68,44 +79,78 @@ class SeededRun {
 /// options set a time limit.
 class Ending {
  public:
-  Ending(const PushProblem& problem, const PlanOptions& options)
+  Ending(const PushProblem& problem, const PlannerKind& kind, const PlanOptions& options)
       : problem_(problem),
         options_(options),
-        improves_(improves_until_stopped(options.planner)),
+        ends_after_first_(kind.improves && !options.improve),
+        tells_by_goal_(kind.algorithm == "SST" || kind.algorithm == "LBTRRT"),
+        most_turns_(kFreeTurns +
+                    kTurnsPerPropagation * std::min(left(problem.work()), kMostBudget)),
         deadline_(Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                      std::chrono::duration<double>(options.time_limit))) {
+    // Some tell of a solution when they have one, some put it into the problem, and two
+    // keep it for themselves until the end.
+    problem.definition()->setIntermediateSolutionCallback(
+        [this](const ob::Planner*, const std::vector<const ob::State*>&, ob::Cost) {
+          note_solution();
+        });
   }
+  ~Ending() { problem_.definition()->setIntermediateSolutionCallback({}); }
+  Ending(const Ending&) = delete;
+  Ending& operator=(const Ending&) = delete;
 
   bool operator()() {
-    return problem_.work().spent() || is_stopped() || is_late() || is_improved() ||
-           is_idle();
+    const Work& work = problem_.work();
+    if (work.meter) work.meter->tick(work.stick_tests + work.propagations);
+    return work.spent() || is_stopped() || is_late() || is_improved() || is_idle();
   }
 
   bool is_stopped() const { return options_.stop != nullptr && options_.stop->load(); }
 
  private:
+  static std::int64_t left(const Work& work) {
+    return work.budget - work.stick_tests - work.propagations;
+  }
+
   bool is_late() const { return options_.time_limit > 0.0 && Clock::now() >= deadline_; }
 
-  bool is_improved() const {
-    const std::int64_t first = problem_.goal()->first_reached_at();
-    return improves_ && first >= 0 &&
-           problem_.work().propagations >=
-               std::max(kImprovement * first, first + kLeastImprovement);
+  void note_solution() {
+    if (first_ < 0) first_ = problem_.work().propagations;
+  }
+
+  bool is_improved() {
+    if (!ends_after_first_) return false;
+    if (tells_by_goal_) {
+      first_ = problem_.goal()->first_reached_at();
+    } else if (first_ < 0 && problem_.definition()->hasExactSolution()) {
+      note_solution();
+    }
+    return first_ >= 0 && problem_.work().propagations >=
+                              std::max(kImprovement * first_, first_ + kLeastImprovement);
   }
 
   bool is_idle() {
-    const bool progressed = std::exchange(seen_, problem_.work().propagations) !=
-                            problem_.work().propagations;
-    idle_turns_ = progressed ? 0 : idle_turns_ + 1;
-    return idle_turns_ > kMostIdleTurns;
+    const std::int64_t states = problem_.steps()->states_seen();
+    if (std::exchange(seen_, problem_.work().propagations) !=
+        problem_.work().propagations) {
+      idle_turns_ = 0;
+      states_before_ = states;
+    }
+    return ++idle_turns_ > kMostIdleTurns || ++turns_ > most_turns_ ||
+           (first_ >= 0 && states - states_before_ > kMostIdleStates);
   }
 
   const PushProblem& problem_;
   const PlanOptions& options_;
-  bool improves_;
+  bool ends_after_first_;
+  bool tells_by_goal_;
+  std::int64_t most_turns_;
+  std::int64_t turns_ = 0;
   Clock::time_point deadline_;
+  std::int64_t first_ = -1;  // propagations at the first solution
   std::int64_t seen_ = -1;
   std::int64_t idle_turns_ = 0;
+  std::int64_t states_before_ = 0;
 };
 
 Plan run_own(const SearchModel& search, const Grasp& start, const Goal& goal,
@@ -148,19 +193,25 @@ Plan run_stock(const SearchModel& search, const Grasp& start, const Goal& goal,
             .margin = search.margin,
             .planner = options.planner,
             .seed = options.seed};
-  const SeededRun seeded(options.seed);
-  const PushProblem problem(search, start, goal, work);
-  const ob::PlannerPtr planner = make_stock_planner(options.planner, problem);
-  if (!planner) {
+  const PlannerKind* kind = find_planner(options.planner);
+  if (kind == nullptr || !kind->needs_ompl()) {
     explain("no such planner", PlanStatus::kUnsupported, plan);
     return plan;
   }
+  const SeededRun seeded(options.seed);
+  const PushProblem problem(search, start, goal, work, meaning_for(kind->family));
+  const ob::PlannerPtr planner = make_stock_planner(*kind, options.settings, problem);
   if (reaches(goal, start)) {
     explain("the start is a goal", PlanStatus::kNothingToDo, plan);
     return plan;
   }
+  if (kind->family == PlannerFamily::kGeometric &&
+      problem.goal()->maxSampleCount() == 0) {
+    explain("no place of the goal is valid", PlanStatus::kBudgetSpent, plan);
+    return plan;
+  }
   const std::int64_t before = work.propagations;
-  Ending ending(problem, options);
+  Ending ending(problem, *kind, options);
   planner->solve(ob::PlannerTerminationCondition([&ending] { return ending(); }));
   plan.propagations = work.propagations - before;
   conclude(problem, ending, plan);
@@ -172,15 +223,17 @@ Plan run_stock(const SearchModel& search, const Grasp& start, const Goal& goal,
 bool frame_is_built() { return true; }
 
 std::vector<std::string> frame_planners() {
-  std::vector<std::string> names = stock_planner_names();
-  names.insert(names.begin(), "push");
+  std::vector<std::string> names = {kOwn};
+  for (const PlannerKind& kind : planner_catalogue()) {
+    if (kind.needs_ompl()) names.push_back(kind.name);
+  }
   return names;
 }
 
 Plan solve_in_frame(const SearchModel& search, const Grasp& start, const Goal& goal,
                     const PlanOptions& options, Work& work) {
-  return options.planner == "push" ? run_own(search, start, goal, options, work)
-                                   : run_stock(search, start, goal, options, work);
+  return options.planner == kOwn ? run_own(search, start, goal, options, work)
+                                 : run_stock(search, start, goal, options, work);
 }
 
 }  // namespace prehensile

@@ -15,8 +15,8 @@ namespace oc = ompl::control;
 
 constexpr double kPi = std::numbers::pi;
 
-constexpr double kFinishShare = 0.1;  ///< of blind controls: straight to the goal
-constexpr double kConeShare = 0.8;    ///< of headings: within the friction cone
+constexpr double kFinishShare = 0.1;  ///< of steered controls: straight to the goal
+constexpr double kAimShare = 0.4;     ///< of these: to a random state
 constexpr double kRollShare = 0.3;    ///< of controls, for an object that can roll
 constexpr int kRedraws = 8;           ///< of headings that cannot stick
 
@@ -26,7 +26,7 @@ using Numbers = oc::RealVectorControlSpace;
 ob::RealVectorBounds bounds_of(const PushSpace& states, bool rolls) {
   ob::RealVectorBounds bounds(rolls ? 4 : 3);
   const double longest = states.getMaximumExtent();
-  bounds.setLow(0, -kPi);
+  bounds.setLow(0, -kPi);  // also holds places [m] of aims, far smaller
   bounds.setHigh(0, kPi);
   bounds.setLow(1, 0.0);
   bounds.setHigh(1, 1.0);
@@ -52,7 +52,7 @@ PushControlSpace::PushControlSpace(const std::shared_ptr<PushSpace>& states,
   const auto numbers =
       std::make_shared<Numbers>(states, static_cast<unsigned>(bounds.low.size()));
   numbers->setBounds(bounds);
-  addSubspace(std::make_shared<Letter>(states, 0, steps_->finish_letter()));
+  addSubspace(std::make_shared<Letter>(states, 0, steps_->aim_letter()));
   addSubspace(numbers);
   lock();
 }
@@ -92,6 +92,7 @@ void PushControlSampler::sample(oc::Control* control) {
 void PushControlSampler::sample(oc::Control* control, const ob::State* state) {
   const PushState from = controls_.states().read(state);
   PushControl push = drawn();
+  if (steps_->meaning() == ControlMeaning::kBlind) return controls_.write(push, control);
   for (int i = 0; i < kRedraws && !steps_->may_stick(from, push); ++i) push = drawn();
   controls_.write(push, control);
 }
@@ -106,24 +107,38 @@ void PushControlSampler::sampleNext(oc::Control* control, const oc::Control*,
 }
 
 PushControl PushControlSampler::drawn() {
-  PushControl push;
+  PushControl push = steps_->meaning() == ControlMeaning::kBlind ? blind() : steered();
+  const bool rolls = steps_->model().cross_section && push.letter != steps_->aim_letter();
+  if (rolls && uniform() < kRollShare) push.roll = rng_.uniformReal(-kPi, kPi);
+  return push;
+}
+
+PushControl PushControlSampler::steered() {
   const int contacts = steps_->finish_letter();
-  if (contacts == 0 || rng_.uniform01() < kFinishShare) {
-    push.letter = contacts;
-    return push;
-  }
-  push.letter = rng_.uniformInt(0, contacts - 1);
-  const StickContact& stick = steps_->search().contacts[push.letter].stick;
-  const double width = rng_.uniform01() < kConeShare ? std::atan(stick.mu) : kPi;
-  push.heading =
-      std::atan2(stick.n.y(), stick.n.x()) + rng_.uniformReal(-1.0, 1.0) * width;
-  push.share = rng_.uniform01();
-  // Short moves as often as long ones: narrow places need them.
-  const double length = rng_.uniform01();
-  push.travel = steps_->model().L * length * length;
-  if (steps_->model().cross_section && rng_.uniform01() < kRollShare) {
-    push.roll = rng_.uniformReal(-kPi, kPi);
-  }
+  if (contacts == 0 || uniform() < kFinishShare) return {.letter = contacts};
+  if (uniform() < kAimShare) return aim();
+  return steps_->random_push(steps_->model().L, [this] { return uniform(); });
+}
+
+PushControl PushControlSampler::aim() {
+  const ob::RealVectorBounds& bounds = controls_.states().getBounds();
+  const auto coordinate = [&](unsigned axis) {
+    return rng_.uniformReal(bounds.low[axis], bounds.high[axis]);
+  };
+  PushControl push{.letter = steps_->aim_letter()};
+  push.heading = coordinate(0);
+  push.share = coordinate(1);
+  push.travel = coordinate(2);
+  return push;
+}
+
+PushControl PushControlSampler::blind() {
+  PushControl push;
+  if (steps_->finish_letter() == 0) return push;
+  push.letter = rng_.uniformInt(0, steps_->finish_letter() - 1);
+  push.heading = rng_.uniformReal(-kPi, kPi);
+  push.share = uniform();
+  push.travel = steps_->model().L * uniform();
   return push;
 }
 

@@ -31,9 +31,10 @@ class PushControlSpace : public ompl::control::CompoundControlSpace {
   bool rolls_;
 };
 
-/// Random pushes. Without a state (SST) the heading is drawn mostly from the friction
-/// cone of the contact, where a push may stick; with one (KPIECE1 and the directed
-/// sampler) headings without any sticking rotation are drawn again.
+/// Random pushes. Steered: straight to the goal, or to a random state, or random with a
+/// heading mostly from the friction cone of the contact; where the state is known,
+/// headings without any sticking rotation are drawn again. Blind: uniform contact,
+/// heading and slope.
 class PushControlSampler : public ompl::control::ControlSampler {
  public:
   PushControlSampler(const PushControlSpace* space, std::shared_ptr<PushSteps> steps);
@@ -47,6 +48,10 @@ class PushControlSampler : public ompl::control::ControlSampler {
 
  private:
   PushControl drawn();
+  PushControl steered();
+  PushControl aim();
+  PushControl blind();
+  double uniform() { return rng_.uniform01(); }
 
   const PushControlSpace& controls_;
   std::shared_ptr<PushSteps> steps_;

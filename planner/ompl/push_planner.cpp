@@ -48,6 +48,7 @@ PushPlanner::PushPlanner(const PushProblem& problem, const PlanOptions& options)
 
 ob::PlannerStatus PushPlanner::solve(const ob::PlannerTerminationCondition& condition) {
   const Work& work = problem_.work();
+  options_.settings["fallback_share"] = 0.0;
   for (std::int64_t round = kFirstRound; !condition(); round *= 2) {
     const std::int64_t budget = std::min(work.budget, work.stick_tests + round);
     const ob::PlannerStatus status = search(budget);

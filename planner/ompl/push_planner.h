@@ -9,8 +9,8 @@ namespace prehensile {
 
 /// Exact steering, way-points and lattice (planner/push_search.h) behind the interface of
 /// ompl::base::Planner. Its solution is a geometric path whose every segment is one push;
-/// `plan` has the pushes themselves. It draws no random numbers, so OMPL's seed does not
-/// matter to it, and it never reports approximate solutions.
+/// `plan` has the pushes themselves. `solve` draws no random numbers, so OMPL's seed does
+/// not matter to it, and it never reports approximate solutions.
 class PushPlanner : public ompl::base::Planner {
  public:
   /// `problem` must outlive the planner. `options` say budget, stop flag and time limit;
@@ -22,7 +22,7 @@ class PushPlanner : public ompl::base::Planner {
   /// Plans from the first start state to the goal of the problem definition, which must
   /// be a PushGoal. The search cannot poll a condition, so it runs in rounds of growing
   /// budgets with the condition asked between them: it may take twice as long as allowed,
-  /// and the plan is that of the first round that finds one.
+  /// and the plan is that of the first round that finds one. Without the fallback.
   ompl::base::PlannerStatus solve(
       const ompl::base::PlannerTerminationCondition& condition) override;
 

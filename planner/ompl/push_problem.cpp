@@ -2,11 +2,11 @@
 
 #include <utility>
 
-#include <ompl/base/OptimizationObjective.h>
 #include <ompl/base/ScopedState.h>
 
 #include "planner/goal.h"
 #include "planner/ompl/push_controls.h"
+#include "planner/ompl/push_objective.h"
 #include "planner/ompl/push_propagator.h"
 #include "planner/ompl/push_validity.h"
 
@@ -16,24 +16,9 @@ namespace {
 namespace ob = ompl::base;
 namespace oc = ompl::control;
 
-class TravelObjective : public ob::OptimizationObjective {
- public:
-  TravelObjective(const ob::SpaceInformationPtr& si, double L)
-      : ob::OptimizationObjective(si), L_(L) {
-    description_ = "travel / L";
-  }
-  ob::Cost stateCost(const ob::State*) const override { return identityCost(); }
-  ob::Cost motionCost(const ob::State* from, const ob::State* to) const override {
-    return ob::Cost(si_->distance(from, to) / L_);
-  }
-  ob::Cost motionCostHeuristic(const ob::State* from,
-                               const ob::State* to) const override {
-    return motionCost(from, to);
-  }
-
- private:
-  double L_;
-};
+/// A plan whose cost is above that of one straight push by no more than this share is
+/// optimal: planners need not search on.
+constexpr double kOptimal = 1e-9;
 
 std::vector<PushState> members_of(const PushSteps& steps, const Grasp& start) {
   const GoalPlaces places = goal_places(steps.model(), steps.goal(), flat_state(start));
@@ -55,9 +40,11 @@ oc::SpaceInformationPtr make_space_information(const std::shared_ptr<PushSpace>&
   si->setStateValidityChecker(std::make_shared<PushValidity>(si, steps));
   si->setMotionValidator(std::make_shared<PushMotionValidator>(si, steps));
   si->setStatePropagator(std::make_shared<PushPropagator>(si, steps));
-  si->setDirectedControlSamplerAllocator([steps](const oc::SpaceInformation* info) {
-    return std::make_shared<PushDirectedSampler>(info, steps);
-  });
+  if (steps->meaning() == ControlMeaning::kSteered) {
+    si->setDirectedControlSamplerAllocator([steps](const oc::SpaceInformation* info) {
+      return std::make_shared<PushDirectedSampler>(info, steps);
+    });
+  }
   // One call of the propagator is one whole push, never a slice of it.
   si->setPropagationStepSize(1.0);
   si->setMinMaxControlDuration(1, 1);
@@ -112,10 +99,10 @@ const PushSpace& PushGoal::space() const {
 }
 
 PushProblem::PushProblem(const SearchModel& search, const Grasp& start, const Goal& goal,
-                         Work& work)
+                         Work& work, ControlMeaning meaning)
     : start_(start),
       work_(work),
-      steps_(std::make_shared<PushSteps>(search, goal, work)),
+      steps_(std::make_shared<PushSteps>(search, goal, work, meaning)),
       space_(std::make_shared<PushSpace>(*steps_, start)),
       si_(make_space_information(space_, steps_)),
       goal_(std::make_shared<PushGoal>(si_, steps_, start)),
@@ -124,8 +111,11 @@ PushProblem::PushProblem(const SearchModel& search, const Grasp& start, const Go
   space_->write(state_of(start), state.get());
   definition_->addStartState(state.get());
   definition_->setGoal(goal_);
-  definition_->setOptimizationObjective(
-      std::make_shared<TravelObjective>(si_, search.model->L));
+  const auto objective = std::make_shared<PushObjective>(si_, search.model->L);
+  const double straight = goal_->distanceGoal(state.get());
+  objective->setCostThreshold(
+      ob::Cost((1.0 + kOptimal) * (1.0 + straight / search.model->L)));
+  definition_->setOptimizationObjective(objective);
 }
 
 }  // namespace prehensile

@@ -51,15 +51,13 @@ class PushGoal : public ompl::base::GoalSampleableRegion {
 /// Space, space information with propagator, samplers, validity and motion validator, and
 /// problem definition with start, goal and objective.
 ///
-/// The objective is travel over L, the second term of J = S + T / L: OMPL 1.5 asks for
-/// the cost of two states without the control between them, so the number S of pusher
-/// placements cannot be seen by it and is charged on the finished plan.
+/// The objective is PushObjective; finished plans are charged J itself.
 ///
 /// `search` and `work` must outlive it; so must it any planner that uses it.
 class PushProblem {
  public:
-  PushProblem(const SearchModel& search, const Grasp& start, const Goal& goal,
-              Work& work);
+  PushProblem(const SearchModel& search, const Grasp& start, const Goal& goal, Work& work,
+              ControlMeaning meaning = ControlMeaning::kSteered);
 
   const Grasp& start() const { return start_; }
   const PushSpace& space() const { return *space_; }

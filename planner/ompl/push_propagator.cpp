@@ -1,7 +1,5 @@
 #include "planner/ompl/push_propagator.h"
 
-#include <cmath>
-#include <limits>
 #include <utility>
 
 #include <ompl/control/SpaceInformation.h>
@@ -80,7 +78,7 @@ unsigned int PushDirectedSampler::sampleTo(oc::Control* control,
   const int preferred = contact_before(controls_, previous, steps_->finish_letter());
   std::optional<PushStep> step;
   if (si_->isValid(dest)) step = steps_->join(from, to, preferred);
-  if (!step) step = closest(from, to);
+  if (!step) step = steps_->closest(from, to);
   if (step) {
     controls_.write(steps_->control_for(from, *step), control);
     space_.write(step->to, dest);
@@ -91,22 +89,6 @@ unsigned int PushDirectedSampler::sampleTo(oc::Control* control,
     if (si_->propagateWhileValid(source, control, 1, dest) == 1) return 1;
   }
   return 0;
-}
-
-std::optional<PushStep> PushDirectedSampler::closest(const PushState& from,
-                                                     const PushState& to) {
-  std::optional<PushStep> best;
-  double least = std::numeric_limits<double>::infinity();
-  for (int contact = 0; contact < steps_->finish_letter(); ++contact) {
-    const std::optional<PushStep> step = steps_->approach(from, to, contact);
-    if (!step) continue;
-    const double turn = std::abs(step->to.flat.theta - to.flat.theta);
-    if (turn < least) {
-      least = turn;
-      best = step;
-    }
-  }
-  return best;
 }
 
 }  // namespace prehensile

@@ -31,7 +31,8 @@ class PushPropagator : public ompl::control::StatePropagator {
 
 /// Steers to a wanted state: exactly if one push does it, else as close as one push
 /// comes, else anywhere by a random push. Returns duration 0 where nothing sticks. Used
-/// by RRT and EST; SST and KPIECE1 draw controls without a wanted state.
+/// by RRT, EST, PDST and SyclopRRT; SST, KPIECE1 and SyclopEST draw controls without a
+/// wanted state, so their sampler draws the wanted state too (PushControlSampler).
 class PushDirectedSampler : public ompl::control::DirectedControlSampler {
  public:
   PushDirectedSampler(const ompl::control::SpaceInformation* si,
@@ -45,8 +46,6 @@ class PushDirectedSampler : public ompl::control::DirectedControlSampler {
                         ompl::base::State* dest) override;
 
  private:
-  std::optional<PushStep> closest(const PushState& from, const PushState& to);
-
   const PushSpace& space_;
   const PushControlSpace& controls_;
   std::shared_ptr<PushSteps> steps_;

@@ -17,25 +17,24 @@ namespace ob = ompl::base;
 constexpr unsigned kTheta = 2;
 constexpr unsigned kPsi = 3;
 
-void bound_angle(ob::RealVectorBounds& bounds, unsigned dimension, double start,
-                 double goal, double scale) {
-  bounds.setLow(dimension, scale * (std::min(start, goal) - std::numbers::pi));
-  bounds.setHigh(dimension, scale * (std::max(start, goal) + std::numbers::pi));
+void bound(ob::RealVectorBounds& bounds, unsigned dimension, double low, double high) {
+  bounds.setLow(dimension, low);
+  bounds.setHigh(dimension, high);
 }
 
 ob::RealVectorBounds bounds_of(const PushSteps& steps, const Grasp& start) {
-  const Grasp goal = member_near(steps.goal(), start);
+  constexpr double kPi = std::numbers::pi;
   const unsigned dimensions = static_cast<unsigned>(steps.model().state_dimensions());
+  const FlatBox box = box_around(steps.model(), start, steps.goal());
   ob::RealVectorBounds bounds(dimensions);
-  for (unsigned axis = 0; axis < 2; ++axis) {
-    const auto [low, high] = std::ranges::minmax(
-        steps.model().pad_face, {}, [axis](const Vec2& corner) { return corner[axis]; });
-    bounds.setLow(axis, low[axis]);
-    bounds.setHigh(axis, high[axis]);
-  }
-  bound_angle(bounds, kTheta, start.X_HO.theta, goal.X_HO.theta, steps.theta_scale());
+  bound(bounds, 0, box.low.p_OF.x(), box.high.p_OF.x());
+  bound(bounds, 1, box.low.p_OF.y(), box.high.p_OF.y());
+  bound(bounds, kTheta, steps.theta_scale() * box.low.theta,
+        steps.theta_scale() * box.high.theta);
   if (dimensions > kPsi) {
-    bound_angle(bounds, kPsi, start.psi, goal.psi, steps.psi_scale());
+    const double psi = member_near(steps.goal(), start).psi;
+    bound(bounds, kPsi, steps.psi_scale() * (std::min(start.psi, psi) - kPi),
+          steps.psi_scale() * (std::max(start.psi, psi) + kPi));
   }
   return bounds;
 }

@@ -8,7 +8,7 @@
 
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 
-#include "planner/ompl/push_steps.h"
+#include "planner/push_steps.h"
 
 namespace prehensile {
 
@@ -23,6 +23,10 @@ class PushSpace : public ompl::base::RealVectorStateSpace {
 
   /// Marks a refused control: a state that no validity check accepts.
   void write_refusal(ompl::base::State* state) const;
+
+  /// A straight motion and its reverse are two questions: some planners would take the
+  /// answer to one for that to the other.
+  bool hasSymmetricInterpolate() const override { return false; }
 
   /// Projects onto all coordinates, in cells of a twentieth of the object. (OMPL's
   /// default for this dimension is a random matrix, which would cost a seed.)

@@ -1,13 +1,9 @@
 #include "planner/ompl/stock_planners.h"
 
-#include <array>
+#include <cstdio>
 #include <memory>
 
-#include <ompl/control/planners/est/EST.h>
-#include <ompl/control/planners/kpiece/KPIECE1.h>
-#include <ompl/control/planners/rrt/RRT.h>
-#include <ompl/control/planners/sst/SST.h>
-#include <ompl/geometric/planners/rrt/RRTConnect.h>
+#include <ompl/control/SimpleDirectedControlSampler.h>
 
 namespace prehensile {
 namespace {
@@ -15,72 +11,68 @@ namespace {
 namespace ob = ompl::base;
 namespace oc = ompl::control;
 
-/// Steering reaches a wanted goal exactly, so trying the goal often pays.
-constexpr double kGoalBias = 0.2;
-
-ob::PlannerPtr make_rrt(const PushProblem& problem) {
-  const auto planner = std::make_shared<oc::RRT>(problem.space_information());
-  planner->setGoalBias(kGoalBias);
-  return planner;
+std::string text_of(const PlannerOption& option, double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, option.whole ? "%.0f" : "%.17g", value);
+  return text;
 }
 
-ob::PlannerPtr make_est(const PushProblem& problem) {
-  const auto planner = std::make_shared<oc::EST>(problem.space_information());
-  planner->setGoalBias(kGoalBias);
-  planner->setRange(0.5 * problem.steps()->model().L);
-  return planner;
+bool has_option(const PlannerKind& kind, const std::string& name) {
+  for (const PlannerOption& option : kind.options) {
+    if (name == option.name) return true;
+  }
+  return false;
 }
 
-ob::PlannerPtr make_kpiece(const PushProblem& problem) {
-  return std::make_shared<oc::KPIECE1>(problem.space_information());
+int whole_setting(const PlannerKind& kind, const PlannerSettings& settings,
+                  const char* name) {
+  return has_option(kind, name) ? static_cast<int>(setting(kind, settings, name)) : 1;
 }
 
-ob::PlannerPtr make_sst(const PushProblem& problem) {
-  const double L = problem.steps()->model().L;
-  const auto planner = std::make_shared<oc::SST>(problem.space_information());
-  planner->setSelectionRadius(0.04 * L);
-  planner->setPruningRadius(0.015 * L);
-  return planner;
+void set_options(const PlannerKind& kind, const PlannerSettings& settings, double L,
+                 ob::Planner& planner) {
+  // Pruning rebuilds the graph for every state that it drops, which takes longer than it
+  // saves here.
+  if (planner.params().hasParam("use_graph_pruning")) {
+    planner.params().setParam("use_graph_pruning", "0");
+  }
+  for (const PlannerOption& option : kind.options) {
+    if (!planner.params().hasParam(option.name)) continue;  // one of ours
+    const double value = setting(kind, settings, option.name) * (option.in_L ? L : 1.0);
+    planner.params().setParam(option.name, text_of(option, value));
+  }
 }
 
-ob::PlannerPtr make_rrt_connect(const PushProblem& problem) {
-  const auto planner =
-      std::make_shared<ompl::geometric::RRTConnect>(problem.space_information());
-  planner->setRange(problem.steps()->model().L);
-  return planner;
+/// Blind controls are directed as OMPL does it: the best of some.
+void set_tries(const PushProblem& problem, unsigned tries) {
+  problem.space_information()->setDirectedControlSamplerAllocator(
+      [tries](const oc::SpaceInformation* si) {
+        return std::make_shared<oc::SimpleDirectedControlSampler>(si, tries);
+      });
 }
-
-struct Stock {
-  const char* name;
-  ob::PlannerPtr (*make)(const PushProblem&);
-};
-
-constexpr std::array<Stock, 5> kStock{{{"rrt", make_rrt},
-                                       {"est", make_est},
-                                       {"kpiece1", make_kpiece},
-                                       {"sst", make_sst},
-                                       {"rrtconnect", make_rrt_connect}}};
 
 }  // namespace
 
-std::vector<std::string> stock_planner_names() {
-  std::vector<std::string> names;
-  names.reserve(kStock.size());
-  for (const Stock& stock : kStock) names.emplace_back(stock.name);
-  return names;
+ControlMeaning meaning_for(PlannerFamily family) {
+  return family == PlannerFamily::kBlind ? ControlMeaning::kBlind
+                                         : ControlMeaning::kSteered;
 }
 
-ob::PlannerPtr make_stock_planner(const std::string& name, const PushProblem& problem) {
-  for (const Stock& stock : kStock) {
-    if (name != stock.name) continue;
-    ob::PlannerPtr planner = stock.make(problem);
-    planner->setProblemDefinition(problem.definition());
-    planner->setup();
-    return planner;
+ob::PlannerPtr make_stock_planner(const PlannerKind& kind,
+                                  const PlannerSettings& settings,
+                                  const PushProblem& problem) {
+  const int cells = whole_setting(kind, settings, "cells");
+  ob::PlannerPtr planner = kind.family == PlannerFamily::kGeometric
+                               ? make_geometric(kind.algorithm, problem)
+                               : make_control(kind.algorithm, problem, cells);
+  if (!planner) return nullptr;
+  if (kind.family == PlannerFamily::kBlind) {
+    set_tries(problem, static_cast<unsigned>(whole_setting(kind, settings, "tries")));
   }
-  return nullptr;
+  set_options(kind, settings, problem.steps()->model().L, *planner);
+  planner->setProblemDefinition(problem.definition());
+  planner->setup();
+  return planner;
 }
-
-bool improves_until_stopped(const std::string& name) { return name == "sst"; }
 
 }  // namespace prehensile

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <ompl/util/Console.h>
 
+#include "planner/catalogue.h"
 #include "planner/frame.h"
 #include "planner/replay.h"
 #include "tests/planner/ompl_regrasps.h"
@@ -20,6 +21,13 @@ std::vector<std::string> stock_planners() {
   return names;
 }
 
+/// Our own and those of OMPL that steer.
+std::vector<std::string> steering_planners() {
+  std::vector<std::string> names = frame_planners();
+  std::erase_if(names, [](const std::string& n) { return n.starts_with("blind::"); });
+  return names;
+}
+
 struct Outcome {
   Model model;
   Plan plan;
@@ -27,7 +35,7 @@ struct Outcome {
 };
 
 Outcome solve(const Scene& scene, const std::string& planner,
-              std::int64_t budget = 100'000, std::uint64_t seed = 1) {
+              std::int64_t budget = 10'000, std::uint64_t seed = 1) {
   Outcome outcome{.model = prepare(scene), .work = {.budget = budget}};
   const SearchModel search = prepare_search(outcome.model, Margin{});
   outcome.plan =
@@ -57,17 +65,21 @@ void expect_chain_of_pushes(const Outcome& outcome) {
   EXPECT_TRUE(reaches(*outcome.model.scene.goal, plan.goal));
 }
 
-TEST(OmplFrame, OwnPlannerIsTheFirstOfSix) {
+TEST(OmplFrame, OwnPlannerIsTheFirstThenAllThatNeedOmpl) {
   EXPECT_TRUE(frame_is_built());
-  const std::vector<std::string> names = {"push",    "rrt", "est",
-                                          "kpiece1", "sst", "rrtconnect"};
+  std::vector<std::string> names = {"push"};
+  for (const PlannerKind& kind : planner_catalogue()) {
+    if (kind.needs_ompl()) names.push_back(kind.name);
+  }
   EXPECT_EQ(frame_planners(), names);
+  EXPECT_EQ(names.size(), 1U + 11U + 7U + 7U);
 }
 
-TEST(OmplFrame, EveryPlannerSolvesEveryRegrasp) {
-  for (const std::string& planner : frame_planners()) {
-    for (const Scene& scene : testing::regrasps()) {
-      const Outcome outcome = solve(scene, planner);
+void expect_solved(const std::vector<std::string>& planners,
+                   const std::vector<Scene>& scenes, std::int64_t budget) {
+  for (const std::string& planner : planners) {
+    for (const Scene& scene : scenes) {
+      const Outcome outcome = solve(scene, planner, budget);
       expect_chain_of_pushes(outcome);
       EXPECT_EQ(outcome.plan.planner, planner);
       const bool own = planner == "push";
@@ -78,24 +90,46 @@ TEST(OmplFrame, EveryPlannerSolvesEveryRegrasp) {
   }
 }
 
-TEST(OmplFrame, PlansPassTheReplayWithTheExactMechanics) {
-  for (const std::string& planner : frame_planners()) {
-    for (const Scene& scene : testing::regrasps()) {
+TEST(OmplFrame, OnePushIsFoundByAllThatSteer) {
+  expect_solved(steering_planners(), {testing::regrasps()[0]}, 10'000);
+}
+
+TEST(OmplFrame, TwoPushesAreFound) {
+  expect_solved({"push", "geometric::RRTConnect", "geometric::EST", "control::RRT",
+                 "control::PDST", "control::SyclopRRT"},
+                {testing::regrasps()[3]}, 10'000);
+}
+
+TEST(OmplFrame, FullPlannersThatSteerSolveEveryRegrasp) {
+  expect_solved(steering_planners(), testing::regrasps(), 100'000);
+}
+
+void expect_replays(const std::vector<Scene>& scenes, std::int64_t budget) {
+  for (const std::string& planner : steering_planners()) {
+    for (const Scene& scene : scenes) {
       const Model model = prepare(scene);
-      const Plan plan = plan_regrasp(model, {.planner = planner, .budget = 200'000});
+      const Plan plan = plan_regrasp(model, {.planner = planner, .budget = budget});
       ASSERT_TRUE(plan.usable()) << planner << ": " << plan.message;
       const Replay replayed = replay(model, plan);
       EXPECT_TRUE(replayed.agrees) << planner << ": " << replayed.why;
-      std::printf("%-10s S %2.0f  J %6.3f  bound %5.3f  propagations %ld\n",
+      std::printf("%-26s S %2.0f  J %6.3f  bound %5.3f  propagations %ld\n",
                   planner.c_str(), plan.placements, plan.cost, plan.lower_bound,
                   static_cast<long>(plan.propagations));
     }
   }
 }
 
+TEST(OmplFrame, PlansPassTheReplayWithTheExactMechanics) {
+  expect_replays({testing::regrasps()[0]}, 10'000);
+}
+
+TEST(OmplFrame, FullPlansPassTheReplayWithTheExactMechanics) {
+  expect_replays(testing::regrasps(), 200'000);
+}
+
 TEST(OmplFrame, ApproximateSolutionsNeverCount) {
   for (const std::string& planner : stock_planners()) {
-    const Outcome outcome = solve(testing::hopeless_regrasp(), planner, 3000);
+    const Outcome outcome = solve(testing::hopeless_regrasp(), planner, 1000);
     EXPECT_EQ(outcome.plan.status, PlanStatus::kBudgetSpent) << planner;
     EXPECT_TRUE(outcome.plan.pushes.empty()) << planner;
     EXPECT_FALSE(outcome.plan.message.empty());
@@ -106,8 +140,12 @@ TEST(OmplFrame, BudgetIsKeptToThePropagation) {
   for (const std::string& planner : stock_planners()) {
     for (const std::int64_t budget : {0, 1, 10, 137, 2000}) {
       const Outcome outcome = solve(testing::hopeless_regrasp(), planner, budget);
-      EXPECT_EQ(outcome.work.propagations, budget) << planner;
       EXPECT_EQ(outcome.plan.status, PlanStatus::kBudgetSpent) << planner;
+      if (planner.ends_with("ITstar")) {  // ask more than they push, see frame.cpp
+        EXPECT_LE(outcome.work.propagations, budget);
+        continue;
+      }
+      EXPECT_EQ(outcome.work.propagations, budget) << planner;
     }
   }
 }
@@ -153,7 +191,7 @@ TEST(OmplFrame, GoalsMayFixSomeCoordinatesOnly) {
       {.theta = start.theta + 0.8},
       {.x = start.x + 0.02},
       {.y = start.y - 0.015, .theta = start.theta - 2.0 * std::numbers::pi + 0.3}};
-  for (const std::string& planner : frame_planners()) {
+  for (const std::string& planner : steering_planners()) {
     for (const Goal& goal : goals) {
       expect_chain_of_pushes(solve(testing::with_goal(scene, goal), planner));
     }
@@ -168,7 +206,7 @@ TEST(OmplFrame, OtherPadsAndPushersAreServed) {
   for (Pusher& pusher : points.pushers) pusher.feature = PointFeature{};
   Scene edges = testing::regrasps()[0];
   for (Pusher& pusher : edges.pushers) pusher.feature = LineFeature{.length = 0.03};
-  for (const std::string& planner : frame_planners()) {
+  for (const std::string& planner : steering_planners()) {
     for (const Scene& scene : {rectangle, points, edges}) {
       expect_chain_of_pushes(solve(scene, planner, 5000));
     }
@@ -178,7 +216,7 @@ TEST(OmplFrame, OtherPadsAndPushersAreServed) {
 TEST(OmplFrame, RollsAreStepsOfTheirOwn) {
   Scene scene = testing::can_scene();
   scene.goal = Goal{.x = 0.01, .psi = 0.7};
-  for (const std::string& planner : frame_planners()) {
+  for (const std::string& planner : steering_planners()) {
     const Outcome outcome = solve(scene, planner);
     expect_chain_of_pushes(outcome);
     int rolls = 0;
@@ -207,7 +245,7 @@ TEST(OmplFrame, ToleranceDecidesWhatIsReached) {
   goal.test = GoalTest::kWeightedSum;
   for (const double tolerance : {1e-6, 1e-3, 1e-2}) {
     goal.position_tolerance = tolerance;
-    for (const std::string& planner : stock_planners()) {
+    for (const std::string& planner : steering_planners()) {
       expect_chain_of_pushes(
           solve(testing::with_goal(testing::square_scene(), goal), planner));
     }
@@ -215,9 +253,9 @@ TEST(OmplFrame, ToleranceDecidesWhatIsReached) {
 }
 
 TEST(OmplFrame, ConsecutivePushesAreNotOneStraightPush) {
-  for (const std::string& planner : stock_planners()) {
-    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-      const Outcome outcome = solve(testing::regrasps()[2], planner, 100'000, seed);
+  for (const std::string& planner : steering_planners()) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      const Outcome outcome = solve(testing::regrasps()[2], planner, 10'000, seed);
       const auto& pushes = outcome.plan.pushes;
       for (std::size_t i = 1; i < pushes.size(); ++i) {
         const LinearPush a = as_linear(pushes[i - 1].push);
@@ -244,7 +282,7 @@ TEST(OmplFrame, LogIsQuietAndGivenBack) {
   Listener listener;
   ompl::msg::useOutputHandler(&listener);
   for (const std::string& planner : frame_planners()) {
-    solve(testing::regrasps()[0], planner);
+    solve(testing::regrasps()[0], planner, 2000);
   }
   EXPECT_EQ(listener.lines, 0);
   EXPECT_EQ(ompl::msg::getOutputHandler(), &listener);

@@ -1,4 +1,4 @@
-#include "planner/ompl/push_steps.h"
+#include "planner/push_steps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -88,13 +88,35 @@ Grasp member_near(const Goal& goal, const Grasp& grasp) {
   return member;
 }
 
-PushSteps::PushSteps(const SearchModel& search, const Goal& goal, Work& work)
-    : search_(search), goal_(goal), work_(work) {
+FlatBox box_around(const Model& model, const Grasp& start, const Goal& goal) {
+  constexpr double kPi = std::numbers::pi;
+  const double theta = member_near(goal, start).X_HO.theta;
+  FlatBox box{{model.pad_face.front(), std::min(start.X_HO.theta, theta) - kPi},
+              {model.pad_face.front(), std::max(start.X_HO.theta, theta) + kPi}};
+  for (const Vec2& corner : model.pad_face) {
+    box.low.p_OF = box.low.p_OF.cwiseMin(corner);
+    box.high.p_OF = box.high.p_OF.cwiseMax(corner);
+  }
+  return box;
+}
+
+/// A motion of unit length in (p_OF, c theta) that sticks at its beginning.
+struct PushSteps::Projection {
+  int contact = -1;
+  double heading = 0.0;
+  double slope = 0.0;
+  double cosine = -2.0;  ///< of the angle to the wanted motion
+};
+
+PushSteps::PushSteps(const SearchModel& search, const Goal& goal, Work& work,
+                     ControlMeaning meaning)
+    : search_(search), goal_(goal), work_(work), meaning_(meaning) {
   theta_scale_ = model().c > 0.0 ? model().c : 0.1 * model().L;
   if (model().cross_section) psi_scale_ = model().cross_section->radius;
 }
 
 bool PushSteps::is_valid(const PushState& state) const noexcept {
+  ++states_seen_;
   const Vec2& p_OF = state.flat.p_OF;
   if (!p_OF.allFinite() || !std::isfinite(state.flat.theta) ||
       !std::isfinite(state.psi)) {
@@ -135,9 +157,105 @@ std::optional<PushStep> PushSteps::approach(const PushState& from, const PushSta
   return step;
 }
 
+std::optional<PushStep> PushSteps::closest(const PushState& from, const PushState& to) {
+  std::optional<PushStep> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (int contact = 0; contact < finish_letter(); ++contact) {
+    const std::optional<PushStep> step = approach(from, to, contact);
+    if (!step) continue;
+    const double turn = std::abs(step->to.flat.theta - to.flat.theta);
+    if (turn < least) {
+      least = turn;
+      best = step;
+    }
+  }
+  return best;
+}
+
+std::optional<PushStep> PushSteps::extend(const PushState& from, const PushState& to,
+                                          double longest) {
+  if (!counted()) return {};
+  const Vec2 dp = to.flat.p_OF - from.flat.p_OF;
+  const Vec3 way(dp.x(), dp.y(), theta_scale_ * (to.flat.theta - from.flat.theta));
+  const double length = way.norm();
+  if (!(length > 0.0)) return {};
+  const double travel = std::min(length, longest);
+  PushState end = to;
+  if (travel < length) {
+    end.flat.p_OF = from.flat.p_OF + travel / length * dp;
+    end.flat.theta += (travel / length - 1.0) * (to.flat.theta - from.flat.theta);
+  }
+  end.psi = from.psi;
+  if (auto straight = joined(from, representable(end), -1)) return straight;
+
+  const Projection next = projected(from.flat.p_OF, way / length);
+  if (next.contact < 0 || next.cosine <= 0.0 || !counted()) return {};
+  const Vec2 e(std::cos(next.heading), std::sin(next.heading));
+  end.flat.p_OF = from.flat.p_OF - travel * std::cos(next.slope) * e;
+  end.flat.theta = from.flat.theta + travel * std::sin(next.slope) / theta_scale_;
+  const PushStep step{.to = representable(end), .move_contact = next.contact};
+  if (!move_works(next.contact, from.flat, step.to.flat)) return {};
+  return step;
+}
+
+/// For one heading the nearest slope is known in closed form; over the headings the
+/// cosine has one top within the cone of a contact, found among some of them and then by
+/// golden sections.
+PushSteps::Projection PushSteps::projected(const Vec2& p_OF, const Vec3& wanted) const {
+  constexpr int kHeadings = 24;  // around
+  constexpr int kSections = 12;
+  constexpr double kGolden = 0.6180339887498949;
+  constexpr double kSpacing = 2.0 * std::numbers::pi / kHeadings;
+  const auto at = [&](int contact, double heading) {
+    const Vec2 e(std::cos(heading), std::sin(heading));
+    const Slopes slopes = slopes_of(search_, contact, p_OF, e);
+    Projection motion{.contact = contact, .heading = heading};
+    if (slopes.empty()) return motion;
+    const double along = -wanted.head<2>().dot(e);
+    motion.slope = slopes.clipped(std::atan2(wanted.z(), along));
+    motion.cosine = along * std::cos(motion.slope) + wanted.z() * std::sin(motion.slope);
+    return motion;
+  };
+  Projection best;
+  for (int contact = 0; contact < finish_letter(); ++contact) {
+    const StickContact& stick = search_.contacts[contact].stick;
+    const double middle = std::atan2(stick.n.y(), stick.n.x());
+    Projection top;
+    for (int i = 0; i < kHeadings; ++i) {
+      const Projection motion = at(contact, middle + i * kSpacing);
+      if (motion.cosine > top.cosine) top = motion;
+    }
+    if (top.contact < 0) continue;
+    double low = top.heading - kSpacing;
+    double high = top.heading + kSpacing;
+    for (int i = 0; i < kSections; ++i) {
+      const Projection left = at(contact, high - kGolden * (high - low));
+      const Projection right = at(contact, low + kGolden * (high - low));
+      const bool is_left = left.cosine > right.cosine ||
+                           (left.cosine == right.cosine && right.heading > top.heading);
+      (is_left ? high : low) = is_left ? right.heading : left.heading;
+      for (const Projection& motion : {left, right}) {
+        if (motion.cosine > top.cosine) top = motion;
+      }
+    }
+    if (top.cosine > best.cosine) best = top;
+  }
+  return best;
+}
+
+std::optional<PushStep> PushSteps::aimed(const PushState& from,
+                                         const PushControl& control) {
+  const PushState to{{{control.heading, control.share}, control.travel / theta_scale_},
+                     from.psi + control.roll};
+  std::optional<PushStep> step = joined(from, representable(to), -1);
+  if (!step) step = closest(from, to);
+  return step && step->does_something() ? step : std::nullopt;
+}
+
 std::optional<PushStep> PushSteps::follow(const PushState& from,
                                           const PushControl& control) {
   if (!counted()) return {};
+  if (control.letter == aim_letter()) return aimed(from, control);
   if (control.letter == finish_letter()) {
     const PushState goal = state_of(member_near(goal_, grasp_of(from)));
     const std::optional<PushStep> step = joined(from, representable(goal), -1);
@@ -154,9 +272,12 @@ std::optional<PushStep> PushSteps::follow(const PushState& from,
     return step.roll ? std::optional(step) : std::nullopt;
   }
   const Vec2 e(std::cos(control.heading), std::sin(control.heading));
-  const Slopes slopes = slopes_of(search_, control.letter, from.flat.p_OF, e);
-  if (slopes.empty()) return {};
-  const double slope = slopes.at(control.share);
+  double slope = std::numbers::pi * (control.share - 0.5);
+  if (meaning_ == ControlMeaning::kSteered) {
+    const Slopes slopes = slopes_of(search_, control.letter, from.flat.p_OF, e);
+    if (slopes.empty()) return {};
+    slope = slopes.at(control.share);
+  }
   step.to.flat.p_OF -= control.travel * std::cos(slope) * e;
   step.to.flat.theta += control.travel * std::sin(slope) / theta_scale_;
   step.to = representable(step.to);
@@ -174,6 +295,10 @@ PushControl PushSteps::control_for(const PushState& from, const PushStep& step) 
   control.heading = std::atan2(-dp.y(), -dp.x());
   control.travel = std::hypot(dp.norm(), turn);
   const Vec2 e(std::cos(control.heading), std::sin(control.heading));
+  if (meaning_ == ControlMeaning::kBlind) {
+    control.share = 0.5 + std::atan2(turn, dp.norm()) / std::numbers::pi;
+    return control;
+  }
   control.share = slopes_of(search_, step.move_contact, from.flat.p_OF, e)
                       .share_of(std::atan2(turn, dp.norm()));
   return control;
@@ -181,7 +306,7 @@ PushControl PushSteps::control_for(const PushState& from, const PushStep& step) 
 
 bool PushSteps::may_stick(const PushState& from,
                           const PushControl& control) const noexcept {
-  if (control.letter == finish_letter() || control.travel == 0.0) return true;
+  if (control.letter >= finish_letter() || control.travel == 0.0) return true;
   const Vec2 e(std::cos(control.heading), std::sin(control.heading));
   return !slopes_of(search_, control.letter, from.flat.p_OF, e).empty();
 }

@@ -1,0 +1,23 @@
+/// What goes on where the exact stages find nothing. Internal to the planner.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "planner/planner.h"
+#include "planner/steering.h"
+
+namespace prehensile {
+
+/// The planner that carries on: of all baselines, OMPL's included, the one that solves
+/// most of the wide problems, and in the least time (docs/benchmarks.md).
+inline constexpr const char* kFallbackPlanner = "random-shooting";
+
+/// Moves in the pad plane found by the fallback with `budget` units of work, then joined
+/// and shortened by the means of the exact stages. `goal` fixes no roll angle. The same
+/// for the same seed and budget.
+std::optional<std::vector<Move>> fall_back(const SearchModel& search, const Grasp& start,
+                                           const Goal& goal, const PlanOptions& options,
+                                           std::int64_t budget, Work& work);
+
+}  // namespace prehensile

@@ -89,8 +89,8 @@ bool plan_in_plane(const SearchModel& search, const Grasp& start, const Goal& go
     append_move(search, *move, plan);
     return true;
   }
-  const double bound = lower_bound(*search.model, start, goal);
-  if (work.meter) work.meter->bound(bound);
+  const double bound = guide_bound(*search.model, start, goal);
+  if (work.meter) work.meter->bound(trivial_bound(*search.model, start, goal));
   const auto found = search_chains(search, from, goals, bound, limits, work);
   if (found && !(limits.improves() && found->chain.cost > kGoodEnough * bound)) {
     append_chain(search, from, found->chain, plan);

@@ -29,8 +29,9 @@ struct LowerBound {
   std::int64_t nodes = 0;  ///< work done
 };
 
-/// The greatest bound, at most `cost`, that can be proved with this work: first that no
-/// plan costs less than `cost` / 1.1, then that none costs less than `cost`. By branch
+/// A bound of at most `cost` that can be proved with this work: first it is tried to
+/// prove that no plan costs less than `cost` / 1.1, then that none costs less than
+/// `cost`. Nothing is tried where the trivial bound is within 10 % of the cost. By branch
 /// and bound over the sequences of contacts and the places where they switch
 /// (word_bound.h). Trivial where the goal leaves a coordinate of the place free, where
 /// the pads are not whole discs wherever they are, and where pushes need the mechanics in

@@ -7,6 +7,7 @@
 
 #include "planner/angle_scan.h"
 #include "planner/planner.h"
+#include "planner/word_bound.h"
 
 namespace prehensile {
 namespace {
@@ -92,6 +93,22 @@ class GoalSet {
 
   const Vec2& start_place() const { return p_OF_; }
 
+  /// For a goal that fixes the place.
+  WordGoal for_words() const {
+    WordGoal goal;
+    goal.place_H = {*goal_.x, *goal_.y};
+    goal.any_turn = !goal_.theta;
+    const double slack = std::min(angle_slack(goal_), kPi);
+    goal.turn_low = nearest_ - slack;
+    goal.turn_high = nearest_ + slack;
+    const bool square = goal_.test == GoalTest::kPerCoordinate;
+    goal.place_slack = goal_.position_tolerance * (square ? std::numbers::sqrt2 : 1.0);
+    if (goal_.test == GoalTest::kWeightedSum && goal_.theta) {
+      goal.slack_per_turn = goal_.characteristic_length;
+    }
+    return goal;
+  }
+
  private:
   template <class Function>
   static double scan(const AngleRange& range, double slope, const Function& f) {
@@ -154,21 +171,87 @@ double roll_path(const Model& model, const Grasp& start, const Goal& goal) {
   return model.cross_section->radius * std::max(0.0, off);
 }
 
+double roll_cost(const Model& model, const Grasp& start, const Goal& goal) {
+  const double roll = roll_path(model, start, goal);
+  return roll > 0.0 ? 1.0 + roll / model.L : 0.0;
+}
+
+/// The gap that most users ask for; see lower_bound.
+constexpr double kGapAsked = 1.1;
+
+/// Relative rounding that a claimed bound is granted.
+constexpr double kAcceptance = 1e-6;
+
+/// What is left open when the work ends depends on the target a little: so much of the
+/// bound is given away that a proof with the bound itself as target finds it, too.
+constexpr double kToProveAgain = 1e-3;
+
+/// Rounding of a proof of several steps, relative.
+constexpr double kProofRounding = 1e-7;
+
+/// A bound of at most `target`; 0 where the words of contacts say nothing. Counts
+/// `nodes` down.
+double prove(const Model& model, const Grasp& start, const Goal& goal, double target,
+             std::int64_t& nodes) {
+  const GoalSet set(model, start, goal);
+  const double roll = roll_cost(model, start, goal);
+  WordQuestion question;
+  question.straight = set.distance();
+  if (!set.fixes_place() || question.straight <= 0.0) return 0.0;
+  const RunLaws laws = run_laws(model);
+  if (laws.empty()) return 0.0;
+  question.p_OF = finger_in_object(start.X_HO);
+  question.theta = start.X_HO.theta;
+  question.goal = set.for_words();
+  const double wanted = (target - roll) * (1.0 + kProofRounding);
+  const double proved = word_bound(word_scene(model, laws), question, wanted, nodes);
+  return roll + proved * (1.0 - kProofRounding);
+}
+
 }  // namespace
 
 double distance_to_goal(const Model& model, const Grasp& start, const Goal& goal) {
   return GoalSet(model, start, goal).distance();
 }
 
-double lower_bound(const Model& model, const Grasp& start, const Goal& goal) {
+double trivial_bound(const Model& model, const Grasp& start, const Goal& goal) {
+  const double distance = GoalSet(model, start, goal).distance();
+  const double bound =
+      roll_cost(model, start, goal) + (distance > 0.0 ? 1.0 + distance / model.L : 0.0);
+  return bound == 0.0 && !reaches(goal, start) ? 1.0 : bound;
+}
+
+double guide_bound(const Model& model, const Grasp& start, const Goal& goal) {
   const GoalSet set(model, start, goal);
   const double distance = set.distance();
-  const double roll = roll_path(model, start, goal);
-  double bound = 0.0;
+  double bound = roll_cost(model, start, goal);
   if (distance > 0.0) bound += in_plane_bound(model, set, distance);
-  if (roll > 0.0) bound += 1.0 + roll / model.L;
-  if (bound == 0.0 && !reaches(goal, start)) bound = 1.0;
+  return bound == 0.0 && !reaches(goal, start) ? 1.0 : bound;
+}
+
+LowerBound lower_bound(const Model& model, const Grasp& start, const Goal& goal,
+                       double cost, std::int64_t nodes) {
+  LowerBound bound{.value = trivial_bound(model, start, goal)};
+  for (const double target : {cost / kGapAsked, cost}) {
+    if (!(bound.value < target) || bound.nodes >= nodes) break;
+    std::int64_t left = nodes - bound.nodes;
+    double proved = prove(model, start, goal, target, left);
+    if (proved < target) proved -= kToProveAgain * target;
+    bound.nodes = nodes - left;
+    if (proved > bound.value + kAccuracy) {
+      bound.is_trivial = false;
+      bound.value = proved;
+    }
+    if (proved < target) break;
+  }
   return bound;
+}
+
+bool bound_holds(const Model& model, const Grasp& start, const Goal& goal, double claimed,
+                 std::int64_t nodes) {
+  const double accepted = claimed * (1.0 - kAcceptance);
+  return trivial_bound(model, start, goal) >= accepted ||
+         prove(model, start, goal, claimed, nodes) >= accepted;
 }
 
 }  // namespace prehensile

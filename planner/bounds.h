@@ -2,6 +2,8 @@
 /// free coordinates and whole turns included.
 #pragma once
 
+#include <cstdint>
+
 #include "mechanics/model.h"
 
 namespace prehensile {
@@ -10,7 +12,36 @@ namespace prehensile {
 double distance_to_goal(const Model& model, const Grasp& start, const Goal& goal);
 
 /// J >= this for every plan of sticking pushes and rolls that reaches the goal; 0 at the
-/// goal.
-double lower_bound(const Model& model, const Grasp& start, const Goal& goal);
+/// goal. From distances alone: one placement, and the straight way.
+double trivial_bound(const Model& model, const Grasp& start, const Goal& goal);
+
+/// What the search takes for a bound: it supposes that the friction of round pads points
+/// exactly along their motion, which that of a discretised pad does only nearly. A guide,
+/// and no bound.
+double guide_bound(const Model& model, const Grasp& start, const Goal& goal);
+
+/// Work of the bounds below: boxes of switch points looked at, about a microsecond each.
+inline constexpr std::int64_t kBoundNodes = 8000;
+
+struct LowerBound {
+  double value = kNan;
+  bool is_trivial = true;  ///< nothing about pushers was proved: value = trivial_bound
+  std::int64_t nodes = 0;  ///< work done
+};
+
+/// A bound of at most `cost` that can be proved with this work: first it is tried to
+/// prove that no plan costs less than `cost` / 1.1, then that none costs less than
+/// `cost`. Nothing is tried where the trivial bound is within 10 % of the cost. By branch
+/// and bound over the sequences of contacts and the places where they switch
+/// (word_bound.h). Trivial where the goal leaves a coordinate of the place free, where
+/// the pads are not whole discs wherever they are, and where pushes need the mechanics in
+/// space. Deterministic.
+LowerBound lower_bound(const Model& model, const Grasp& start, const Goal& goal,
+                       double cost, std::int64_t nodes = kBoundNodes);
+
+/// Whether J >= `claimed` can be proved with this work: the answer that a reader of a
+/// plan wants.
+bool bound_holds(const Model& model, const Grasp& start, const Goal& goal, double claimed,
+                 std::int64_t nodes = 4 * kBoundNodes);
 
 }  // namespace prehensile

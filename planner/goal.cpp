@@ -18,6 +18,10 @@ constexpr double kCoarseStep = 0.125;  // one free position at a free angle
 constexpr int kCoarseSteps = 7;
 constexpr double kPlaneStep = 0.15;  // two free positions
 constexpr int kPlaneSteps = 5;
+/// Within tolerances.
+constexpr double kUsed = 0.9;
+constexpr int kTurns = 7;
+constexpr int kDirections = 8;
 
 /// 0, 1, -1, 2, -2, ... times the step.
 double offset(int i, double step) { return step * (i % 2 == 0 ? -i / 2 : (i + 1) / 2); }
@@ -36,21 +40,33 @@ class PlaceCollector {
   void add_angle(double theta) {
     const Vec2 kept = -rotated(theta, start_.p_OF);
     const bool both_free = !goal_.x && !goal_.y;
+    const int windings = goal_.theta ? 3 : 1;
     if (both_free) {
       for (int i = 0; i < kPlaneSteps * kPlaneSteps; ++i) {
         const Vec2 d{offset(i / kPlaneSteps, kPlaneStep),
                      offset(i % kPlaneSteps, kPlaneStep)};
-        add(theta, kept + model_.L * d);
+        add(theta, kept + model_.L * d, windings);
       }
     } else if (goal_.x && goal_.y) {
-      add(theta, {*goal_.x, *goal_.y});
+      add(theta, {*goal_.x, *goal_.y}, windings);
     } else {
       const int steps = goal_.theta ? kSteps : kCoarseSteps;
       const double step = goal_.theta ? kStep : kCoarseStep;
       for (int i = 0; i < steps; ++i) {
         const double d = model_.L * offset(i, step);
-        add(theta, {goal_.x.value_or(kept.x() + d), goal_.y.value_or(kept.y() + d)});
+        add(theta, {goal_.x.value_or(kept.x() + d), goal_.y.value_or(kept.y() + d)},
+            windings);
       }
+    }
+  }
+
+  /// Places at one angle that are off the goal by this, and the one that is not.
+  void add_around(double theta, double off) {
+    const Vec2 place{*goal_.x, *goal_.y};
+    add(theta, place, 1);
+    if (off <= 0.0) return;
+    for (int i = 0; i < kDirections; ++i) {
+      add(theta, place + rotated(2.0 * kPi * i / kDirections, {off, 0.0}), 1);
     }
   }
 
@@ -64,13 +80,13 @@ class PlaceCollector {
   }
 
  private:
-  void add(double theta, const Vec2& position) {
+  void add(double theta, const Vec2& position, int windings) {
     const Vec2 p_OF = -rotated(-theta, position);
     if (places_.count == GoalPlaces::kCapacity || !contains(model_.pad_face, p_OF))
       return;
     GoalPlace& place = places_.places[places_.count++];
     place.p_OF = p_OF;
-    place.count = goal_.theta ? 3 : 1;
+    place.count = windings;
     place.theta = {theta, theta + 2.0 * kPi, theta - 2.0 * kPi};
   }
 
@@ -116,6 +132,23 @@ GoalPlaces goal_places(const Model& model, const Goal& goal,
     for (const double degrees : kAngles) {
       collector.add_angle(start.theta + degrees * kPi / 180.0);
     }
+  }
+  return collector.sorted();
+}
+
+GoalPlaces tolerated_places(const Model& model, const Goal& goal,
+                            const FlatState& start) noexcept {
+  PlaceCollector collector(model, goal, start);
+  if (!goal.x || !goal.y || !goal.theta) return collector.sorted();
+  const double middle = start.theta + wrapped(*goal.theta - start.theta);
+  const bool shared = goal.test == GoalTest::kWeightedSum;
+  const double most =
+      kUsed * (shared ? goal.position_tolerance / goal.characteristic_length
+                      : goal.angle_tolerance);
+  for (int i = 0; i < kTurns; ++i) {
+    const double turn = most * offset(i, 2.0 / (kTurns - 1));
+    const double used = shared ? goal.characteristic_length * std::abs(turn) : 0.0;
+    collector.add_around(middle + turn, kUsed * goal.position_tolerance - used);
   }
   return collector.sorted();
 }

@@ -37,6 +37,11 @@ struct GoalPlaces {
 GoalPlaces goal_places(const Model& model, const Goal& goal,
                        const FlatState& start) noexcept;
 
+/// Members of a goal that fixes place and angle but for its tolerances, at up to 0.9 of
+/// these; nearest to the start first, without whole turns.
+GoalPlaces tolerated_places(const Model& model, const Goal& goal,
+                            const FlatState& start) noexcept;
+
 /// The roll that is left from `psi` to the goal [rad], in (-pi, pi]; 0 if the goal does
 /// not fix it, or is met within its tolerance (half of a tolerance shared with the
 /// place).

@@ -93,10 +93,12 @@ struct Plan {
   Margin margin;  ///< box of uncertainty that every push survives
   Promise promise = Promise::kMargin;
 
-  double cost = kNan;         ///< J
-  double placements = 0;      ///< S
-  double travel = kNan;       ///< T [m]
-  double lower_bound = kNan;  ///< valid bound on J over all sticking plans
+  double cost = kNan;            ///< J
+  double placements = 0;         ///< S
+  double travel = kNan;          ///< T [m]
+  double lower_bound = kNan;     ///< valid bound on J over all sticking plans
+  bool bound_is_trivial = true;  ///< by distances alone, nothing about pushers
+  std::int64_t bound_nodes = 0;  ///< work of the bound, see planner/bounds.h
   double published_cost = kNan;
 
   std::string planner;  ///< which planner found it

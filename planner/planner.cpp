@@ -234,6 +234,19 @@ Plan decide(const Model& model, const PlanOptions& options) {
   return plan;
 }
 
+void set_bound(const Model& model, Plan& plan) {
+  const Grasp& start = model.scene.start;
+  const Goal& goal = *model.scene.goal;
+  if (!plan.usable()) {
+    plan.lower_bound = trivial_bound(model, start, goal);
+    return;
+  }
+  const LowerBound bound = lower_bound(model, start, goal, plan.cost);
+  plan.lower_bound = bound.value;
+  plan.bound_is_trivial = bound.is_trivial;
+  plan.bound_nodes = bound.nodes;
+}
+
 }  // namespace
 
 Plan plan_regrasp(const Model& model, const PlanOptions& options) {
@@ -243,7 +256,7 @@ Plan plan_regrasp(const Model& model, const PlanOptions& options) {
   const bool bounded = plan.usable() || plan.status == PlanStatus::kBudgetSpent ||
                        plan.status == PlanStatus::kStopped;
   if (bounded) {
-    plan.lower_bound = lower_bound(model, model.scene.start, *model.scene.goal);
+    set_bound(model, plan);
   }
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
   plan.seconds = spent.count();

@@ -83,6 +83,22 @@ bool plan_with_real_pads(const SearchModel& search, const FlatState& from,
   return true;
 }
 
+/// A plan that ends off the goal, within its tolerances, must cost less than this share
+/// of the best one that does not.
+constexpr double kWorthTolerance = 0.9;
+
+/// One straight push to a place beside the goal that is much cheaper than the plan found.
+std::optional<Move> push_within_tolerance(const SearchModel& search,
+                                          const FlatState& from, const Goal& goal,
+                                          const std::optional<FoundChain>& found,
+                                          Work& work) {
+  const auto move =
+      direct_push(search, from, tolerated_places(*search.model, goal, from), work);
+  if (!move || !found) return move;
+  const double cost = cost_of(search, {*move});
+  return cost < kWorthTolerance * found->chain.cost ? move : std::nullopt;
+}
+
 /// Fills the pushes in the pad plane; false if none were found.
 bool plan_in_plane(const SearchModel& search, const Grasp& start, const Goal& goal,
                    const Limits& limits, Work& work, Plan& plan) {
@@ -92,9 +108,13 @@ bool plan_in_plane(const SearchModel& search, const Grasp& start, const Goal& go
     append_move(search, *move, plan);
     return true;
   }
-  const double bound = lower_bound(*search.model, start, goal);
-  if (work.meter) work.meter->bound(bound);
+  const double bound = guide_bound(*search.model, start, goal);
+  if (work.meter) work.meter->bound(trivial_bound(*search.model, start, goal));
   const auto found = search_chains(search, from, goals, bound, limits, work);
+  if (const auto move = push_within_tolerance(search, from, goal, found, work)) {
+    append_move(search, *move, plan);
+    return true;
+  }
   if (found && !(limits.improves() && found->chain.cost > kGoodEnough * bound)) {
     append_chain(search, from, found->chain, plan);
     return true;

@@ -30,7 +30,8 @@ struct Replay {
   bool starts_right = false;  ///< the first push starts at the scene's start
   bool connected = false;     ///< each push starts where the one before ended
   bool reaches_goal = false;  ///< the replayed end pose satisfies the goal
-  bool costs_right = false;   ///< S, T, J and the bound as recomputed from the pushes
+  bool costs_right = false;   ///< S, T and J as recomputed from the pushes
+  bool bound_right = false;   ///< the lower bound is proved again
   bool agrees = false;        ///< all of the above and every push
   std::string why;
   Grasp end;

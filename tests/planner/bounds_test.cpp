@@ -86,36 +86,160 @@ TEST(Bounds, NoMemberOfTheGoalSetIsNearer) {
   EXPECT_GT(members, 10'000);
 }
 
-/// Plans of one contact by steering: random chains of sticking moves of a contact end
-/// somewhere; the bound for that end must allow them.
-TEST(Bounds, AllowEveryChainOfStickingMoves) {
-  Random random(3);
-  int chains = 0;
-  for (int i = 0; i < 3000; ++i) {
-    Scene scene = i % 2 == 0 ? published_square(i % 50) : published_tee(i % 50);
-    scene.pushers.resize(1 + random.below(3));
+struct Walk {
+  FlatState end;
+  double cost = 0.0;
+  int pushes = 0;
+};
+
+/// Random pushes that stick with the real pads, whatever the closed form says of them.
+Walk random_walk(const SearchModel& search, const FlatState& start, int pushes,
+                 Random& random) {
+  const Model& model = *search.model;
+  Work work{.budget = testing::kNoBudget};
+  Walk walk{.end = start};
+  int last = -1;
+  for (int k = 0; k < 40 && walk.pushes < pushes; ++k) {
+    const int contact = last >= 0 && random.chance(0.5)
+                            ? last
+                            : random.below(static_cast<int>(search.contacts.size()));
+    const FlatState to{walk.end.p_OF + random.in_disc(0.04),
+                       walk.end.theta + random.in(-3.0, 3.0)};
+    if (!segment_on_object(model, walk.end.p_OF, to.p_OF)) continue;
+    const Move move{contact, walk.end, to};
+    if (!(move_slack(search, move, 12, work) >= -kStickTolerance)) continue;
+    walk.cost += (contact != last) + std::hypot((to.p_OF - walk.end.p_OF).norm(),
+                                                model.c * (to.theta - walk.end.theta)) /
+                                         model.L;
+    last = contact;
+    walk.end = to;
+    ++walk.pushes;
+  }
+  return walk;
+}
+
+Scene random_bound_scene(int i, Random& random) {
+  Scene scene = i % 2 == 0 ? published_square(i % 50) : published_tee(i % 50);
+  scene.pushers.resize(1 + random.below(3));
+  if (random.chance(0.5)) scene.g_W = rotated(random.in(-kPi, kPi), {9.81, 0.0});
+  if (random.chance(0.3)) scene.g_W.setZero();
+  for (auto& pusher : scene.pushers) {
+    pusher.friction = random.in(0.1, 1.0);
+    pusher.normal_angle += random.chance(0.3) ? random.in(-0.1, 0.1) : 0.0;
+  }
+  scene.gripper.grip_force = random.log_in(15.0, 80.0);
+  return scene;
+}
+
+/// A walk is a plan: the bound for its end must allow it, and must refuse to prove a
+/// little more than its cost.
+void attack_with_walks(int count, std::uint64_t seed) {
+  Random random(seed);
+  int walks = 0, sharp = 0, strong = 0;
+  for (int i = 0; i < count; ++i) {
+    const Scene scene = random_bound_scene(i, random);
     const Model model = prepare(scene);
     const SearchModel search = prepare_search(model, Margin::none());
-    Work work{.budget = testing::kNoBudget};
-    FlatState at = flat_state(scene.start);
-    int last = -1;
-    double cost = 0.0;
-    for (int k = 0; k < 4; ++k) {
-      const FlatState to{at.p_OF + random.in_disc(0.03), at.theta + random.in(-2.0, 2.0)};
-      const auto move = direct_move(search, at, to, work, last);
-      if (!move) continue;
-      cost += (move->contact != last) +
-              std::hypot((to.p_OF - at.p_OF).norm(), model.c * (to.theta - at.theta)) /
-                  model.L;
-      last = move->contact;
-      at = to;
+    if (search.contacts.empty()) continue;
+    const Walk walk =
+        random_walk(search, flat_state(scene.start), 1 + random.below(4), random);
+    if (walk.pushes == 0) continue;
+    ++walks;
+    Goal goal = goal_at(walk.end.p_OF, walk.end.theta);
+    if (random.chance(0.5)) {  // a plan may stop at the edge of the tolerance
+      goal.position_tolerance = random.log_in(1e-5, 3e-3);
+      goal.angle_tolerance = random.log_in(1e-4, 0.2);
+      goal.test = random.chance(0.5) ? GoalTest::kWeightedSum : GoalTest::kPerCoordinate;
+      *goal.x += 0.9 * goal.position_tolerance;
     }
-    if (last < 0) continue;
-    ++chains;
-    const Goal goal = goal_at(at.p_OF, at.theta);
-    EXPECT_LE(lower_bound(model, scene.start, goal), cost + 1e-9) << i;
+    if (random.chance(0.2)) goal.theta.reset();
+    EXPECT_LE(trivial_bound(model, scene.start, goal), walk.cost + 1e-9) << i;
+    const LowerBound bound = lower_bound(model, scene.start, goal, 1.2 * walk.cost, 800);
+    EXPECT_LE(bound.value, walk.cost + 1e-9) << i;
+    EXPECT_FALSE(bound_holds(model, scene.start, goal, 1.03 * walk.cost, 800)) << i;
+    strong += !bound.is_trivial;
+    sharp += bound.value > walk.cost / 1.1;
   }
-  EXPECT_GT(chains, 1000);
+  EXPECT_GT(walks, count / 2);
+  EXPECT_GT(strong, count / 20);
+  EXPECT_GT(sharp, count / 20);
+}
+
+TEST(Bounds, AllowEveryWalkOfStickingPushes) { attack_with_walks(200, 3); }
+
+TEST(Bounds, FullAllowEveryWalkOfStickingPushes) { attack_with_walks(20'000, 4); }
+
+/// The planner's own plans, nominal, of the problems that are measured.
+void attack_with_plans(int count, int from) {
+  int plans = 0;
+  for (int i = from; i < from + count; ++i) {
+    const bool square = i % 2 == 0;
+    const auto range = i % 4 < 2 ? RegraspRange::kWide : RegraspRange::kPublished;
+    const Scene scene = random_among_walls(square, range, i % 8 < 4, 5, i);
+    const Model model = prepare(scene);
+    PlanOptions options;
+    options.margin = Margin::none();
+    const Plan plan = plan_regrasp(model, options);
+    if (plan.status != PlanStatus::kReachedGoal) continue;
+    ++plans;
+    EXPECT_LE(plan.lower_bound, plan.cost * (1.0 + 1e-9)) << i;
+    EXPECT_GE(plan.lower_bound, trivial_bound(model, scene.start, *scene.goal)) << i;
+    EXPECT_FALSE(bound_holds(model, scene.start, *scene.goal, 1.03 * plan.cost, 800))
+        << i;
+  }
+  EXPECT_GT(plans, 0.9 * count);
+}
+
+TEST(Bounds, NoPlanBeatsItsBound) { attack_with_plans(32, 0); }
+
+TEST(Bounds, FullNoPlanBeatsItsBound) { attack_with_plans(10'000, 1000); }
+
+TEST(Bounds, FallWithTheTolerance) {
+  for (int i = 0; i < 30; ++i) {
+    Scene scene = random_among_walls(i % 2 == 0, RegraspRange::kWide, i % 4 < 2, 6, i);
+    const Model model = prepare(scene);
+    Goal goal = *scene.goal;
+    double before = 4.0;
+    for (const double tolerance : {1e-5, 1e-3, 5e-3}) {
+      goal.position_tolerance = tolerance;
+      // The same claim, proved for the larger set, holds for the smaller one.
+      const double bound = lower_bound(model, scene.start, goal, before, 2000).value;
+      EXPECT_TRUE(tolerance == 1e-5 || before >= bound);
+      before = bound;
+    }
+  }
+}
+
+/// Another zero of the hand's angle changes nothing: whole discs feel alike.
+TEST(Bounds, DoNotDependOnTheFrameOfTheHand) {
+  Random random(7);
+  for (int i = 0; i < 30; ++i) {
+    Scene scene = random_among_walls(i % 2 == 0, RegraspRange::kWide, i % 4 < 2, 8, i);
+    const Model model = prepare(scene);
+    const LowerBound bound = lower_bound(model, scene.start, *scene.goal, 3.0, 1000);
+    const double turn = random.in(-kPi, kPi);
+    for (PlanarPose* X_HO : {&scene.start.X_HO}) {
+      *X_HO = pose_from_finger(finger_in_object(*X_HO), X_HO->theta + turn);
+    }
+    const PlanarPose X_HO{*scene.goal->x, *scene.goal->y, *scene.goal->theta};
+    const PlanarPose turned = pose_from_finger(finger_in_object(X_HO), X_HO.theta + turn);
+    scene.goal->x = turned.x;
+    scene.goal->y = turned.y;
+    scene.goal->theta = turned.theta;
+    const LowerBound other =
+        lower_bound(prepare(scene), scene.start, *scene.goal, 3.0, 1000);
+    EXPECT_NEAR(bound.value, other.value, 1e-3) << i;
+  }
+}
+
+TEST(Bounds, AreTrivialWhereTheLawsDoNotHold) {
+  Scene scene = published_tee(3);
+  scene.overhang = Overhang::kClip;
+  const Model clipped = prepare(scene);
+  EXPECT_TRUE(lower_bound(clipped, scene.start, *scene.goal, 9.0).is_trivial);
+  scene = published_tee(3);
+  scene.goal->x.reset();
+  EXPECT_TRUE(lower_bound(prepare(scene), scene.start, *scene.goal, 9.0).is_trivial);
 }
 
 TEST(Bounds, TellAGoalBesideTheConeOfAllContacts) {
@@ -126,9 +250,10 @@ TEST(Bounds, TellAGoalBesideTheConeOfAllContacts) {
   // The wall at -x moves the finger axis towards -x, floor and ceiling towards -y and +y;
   // +x is only reached by two of them in turn.
   const Goal goal = goal_at({0.03, 0.0}, 0.0);
-  EXPECT_GT(lower_bound(model, scene.start, goal), 2.0);
+  EXPECT_GT(lower_bound(model, scene.start, goal, 3.0).value, 2.0);
   const Goal ahead = goal_at({-0.03, 0.0}, 0.0);
-  EXPECT_LT(lower_bound(model, scene.start, ahead), 1.31);
+  EXPECT_LT(lower_bound(model, scene.start, ahead, 3.0).value, 1.31);
+  EXPECT_FALSE(bound_holds(model, scene.start, ahead, 1.35));
 }
 
 }  // namespace

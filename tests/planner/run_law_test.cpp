@@ -1,0 +1,150 @@
+#include "planner/run_law.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "mechanics/sticking.h"
+#include "problems/published_regrasps.h"
+#include "tests/support/random.h"
+
+namespace prehensile {
+namespace {
+
+using testing::Random;
+
+constexpr double kPi = std::numbers::pi;
+
+/// Sums the pads' friction for the motion (e, omega) at this angle of the object, over F.
+struct Drag {
+  double along, across, moment;
+};
+Drag drag_of(const Model& model, double theta, const Vec2& e, double omega) {
+  const ContactPoints points = model.region.at(pose_from_finger({0.0, 0.0}, theta));
+  const Vec2 e_H = rotated(theta, e);
+  Vec2 force = Vec2::Zero();
+  double moment = 0.0;
+  for (int j = 0; j < points.count; ++j) {
+    const Vec2 r(points.x[j], points.y[j]);
+    const Vec2 slip = e_H + omega * perp(r);
+    const Vec2 f = points.weight[j] * slip.normalized();
+    force += f;
+    moment += cross(r, f);
+  }
+  return {force.dot(e_H), std::abs(cross(e_H, force)), moment};
+}
+
+/// A kappa anywhere, often where the centre of rotation is among the pad points.
+double random_kappa(Random& random) {
+  const double size = random.chance(0.6) ? random.in(0.0, 3.0) : random.log_in(1e-3, 1e3);
+  return random.chance(0.5) ? size : -size;
+}
+
+TEST(PadSection, HoldsTheFrictionBetweenItsSamples) {
+  Random random(1);
+  for (const int points : {8, 16, 64}) {
+    const Model model = prepare(published_square(0), {.points_per_pad = points});
+    const std::vector<SectionCell> cells = pad_section(model);
+    ASSERT_FALSE(cells.empty());
+    for (int i = 0; i < 20'000; ++i) {
+      const double kappa = random_kappa(random);
+      const double sigma = std::hypot(1.0, kappa);
+      const Drag drag = drag_of(model, random.in(-kPi, kPi), {1.0, 0.0}, kappa / model.c);
+      const double turning =
+          (drag.moment / (model.c * drag.along) - kSectionRatio * kappa) / sigma;
+      // Cells ascend in kappa, so sigma finds two of them: one per sign.
+      const bool held =
+          std::any_of(cells.begin(), cells.end(), [&](const SectionCell& cell) {
+            return sigma >= cell.sigma_low && sigma <= cell.sigma_high &&
+                   drag.along * sigma >= cell.drag_low &&
+                   drag.along * sigma <= cell.drag_high &&
+                   drag.across / drag.along <= cell.deviation &&
+                   turning >= cell.turning_low && turning <= cell.turning_high;
+          });
+      EXPECT_TRUE(held) << points << " points, kappa " << kappa;
+    }
+  }
+}
+
+Scene random_law_scene(Random& random) {
+  Scene scene = random.chance(0.5) ? published_square(random.below(50))
+                                   : published_tee(random.below(50));
+  scene.gripper.grip_force = random.log_in(8.0, 200.0);
+  const bool weightless = random.chance(0.2);
+  scene.g_W =
+      weightless ? Vec2(0.0, 0.0) : Vec2(rotated(random.in(-kPi, kPi), {9.81, 0}));
+  for (auto& pusher : scene.pushers) pusher.friction = random.in(0.0, 1.2);
+  return scene;
+}
+
+struct Tally {
+  int sticking = 0, edges_near = 0, ends_near = 0;
+};
+
+/// One instant that sticks with the pads themselves obeys the law.
+void check_instant(const Model& model, const RunLaws& laws, Random& random,
+                   Tally& tally) {
+  const int j = random.below(static_cast<int>(model.contacts.size()));
+  const PushContact& contact = model.contacts[j];
+  const RunLaw& law = laws.contacts[j];
+  const double lean = std::atan(contact.mu) + random.in(-0.3, 0.3);
+  const Vec2 e = random.chance(0.5)
+                     ? rotated(random.chance(0.5) ? lean : -lean, contact.n)
+                     : rotated(random.in(-kPi, kPi), Vec2(1.0, 0.0));
+  const double kappa = random_kappa(random);
+  const Vec2 p_OF = random.in_box(0.05, 0.05);
+  const PlanarPose X_HO = pose_from_finger(p_OF, random.in(-kPi, kPi));
+  const StickTest test = exact_stick_test(model, contact, 0.0, X_HO, e, 1.0,
+                                          kappa / model.c, Margin::none());
+  if (!(test.slack >= 0.0)) return;
+  ++tally.sticking;
+  const double dT = std::hypot(1.0, kappa);
+  for (int k = 0; k < 2; ++k) {
+    const double spare = law.w[k].dot(e) + law.back[k] * dT;
+    EXPECT_GE(spare, -1e-9) << kappa;
+    if (spare < 0.05 * dT) ++tally.edges_near;
+  }
+  const Vec2 dp = -e;
+  const double turned = laws.C * kappa / model.c;
+  const auto slack = [&](int k, const Vec2& end) {
+    return (law.slack[k] + law.slack_slope[k] * (p_OF - end).norm()) * dT;
+  };
+  const double low = turned - cross(p_OF - law.low, dp) + slack(0, law.low);
+  const double high = cross(p_OF - law.high, dp) + slack(1, law.high) - turned;
+  EXPECT_GE(low, -1e-9) << kappa;
+  EXPECT_GE(high, -1e-9) << kappa;
+  if (std::min(low, high) < 3e-3 * dT) ++tally.ends_near;
+}
+
+void check_instants(int scenes, int instants, std::uint64_t seed) {
+  Random random(seed);
+  Tally tally;
+  for (int i = 0; i < scenes; ++i) {
+    const Scene scene = random_law_scene(random);
+    const Model model = prepare(scene, {.points_per_pad = random.chance(0.7) ? 16 : 64});
+    const RunLaws laws = run_laws(model);
+    ASSERT_FALSE(laws.empty());
+    for (int k = 0; k < instants; ++k) check_instant(model, laws, random, tally);
+  }
+  EXPECT_GT(tally.sticking, scenes * instants / 20);
+  EXPECT_GT(tally.edges_near, tally.sticking / 100);
+  EXPECT_GT(tally.ends_near, tally.sticking / 1000);
+}
+
+TEST(RunLaws, HoldAtEveryInstantThatSticks) { check_instants(100, 4000, 2); }
+
+TEST(RunLaws, FullHoldAtEveryInstantThatSticks) { check_instants(2000, 20'000, 3); }
+
+TEST(RunLaws, AreNotMadeForPadsThatChange) {
+  Scene scene = published_square(0);
+  scene.overhang = Overhang::kClip;
+  EXPECT_TRUE(run_laws(prepare(scene)).empty());
+  scene.overhang = Overhang::kIgnore;
+  scene.gripper.pad = RectanglePad{{0.02, 0.01}};
+  EXPECT_TRUE(run_laws(prepare(scene)).empty());
+}
+
+}  // namespace
+}  // namespace prehensile

@@ -45,6 +45,19 @@ bool sticks(const Model& model, const PlanarPose& X_HO, const LinearPush& push) 
   return done.completed() && done.slipped == 0.0;
 }
 
+/// A point pusher sticks at its point while the object turns about it as it likes: the
+/// push is one that the exact mechanics follows to its end on the object, gravity held
+/// before and after.
+bool follows(const Model& model, const PlanarPose& X_HO, const LinearPush& push) {
+  constexpr double kSlip = 1e-5;  // [m]
+  const PushContact& contact = model.contacts[push.contact];
+  const Transition done = apply(model, {X_HO, 0.0}, push);
+  const Vec2 end = finger_in_object(done.end.X_HO);
+  return done.completed() && done.slipped < kSlip &&
+         held(model, contact, finger_in_object(X_HO)) && held(model, contact, end) &&
+         depth_inside(model.outline, end) > 1e-3;
+}
+
 std::optional<LinearPush> random_move(const Model& model, const PlanarPose& X_HO,
                                       int avoided, RandomStream& random) {
   for (int i = 0; i < kTriesPerMove; ++i) {
@@ -61,7 +74,9 @@ std::optional<LinearPush> random_move(const Model& model, const PlanarPose& X_HO
     const double kappa = std::tan(random.in(-1.5, 1.5));
     push.turn = kappa * push.travel / model.c;
     if (push.contact == avoided || std::abs(push.turn) > kLargestTurn) continue;
-    if (sticks(model, X_HO, push)) return push;
+    if (contact.is_point ? follows(model, X_HO, push) : sticks(model, X_HO, push)) {
+      return push;
+    }
   }
   return std::nullopt;
 }
@@ -103,6 +118,10 @@ bool append_chain(const Model& model, const ChainRange& range, RandomStream& ran
     if (!move) return false;
     problem.pushes.push_back(*move);
     pushers.insert(model.contacts[move->contact].pusher);
+    if (model.contacts[move->contact].is_point) {
+      grasp.X_HO = apply(model, grasp, *move).end.X_HO;
+      continue;
+    }
     const Vec2 p_OF = finger_in_object(grasp.X_HO) - move->travel * move->e;
     grasp.X_HO = pose_from_finger(p_OF, grasp.X_HO.theta + move->turn);
   }

@@ -18,9 +18,10 @@ struct ChainRange {
 /// attitude of every contact.
 bool held_by_all(const Model& model, const Vec2& p_OF);
 
-/// Draws pushes from the start of the model's scene, each of 5 to 40 mm and checked with
-/// the exact pads over the default margin; where the last one ends becomes the goal of
-/// `problem`, its tolerances as they are. False if too few were found.
+/// Draws pushes from the start of the model's scene, each of 5 to 40 mm; where the last
+/// one ends becomes the goal of `problem`, its tolerances as they are. Pushes by lines
+/// stick with the exact pads over the default margin; those by points are followed by the
+/// exact mechanics. False if too few were found.
 bool append_chain(const Model& model, const ChainRange& range, RandomStream& random,
                   RandomRegrasp& problem);
 

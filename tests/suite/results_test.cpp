@@ -196,7 +196,7 @@ TEST(Results, AFullDiskLeavesTheRowsThatWereThere) {
   const pid_t child = ::fork();
   if (child == 0) {
     std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit limit{200'000, 200'000};
+    const rlimit limit{400'000, 400'000};
     ::setrlimit(RLIMIT_FSIZE, &limit);
     int added = 0;
     const std::string message = message_of([&] {

@@ -103,7 +103,7 @@ TEST(SuiteFile, SaysWhatIsWrongAndWhere) {
       {kHead + kFamily + "limits: {cpu_time: .nan}\n",
        "s.yaml:7: limits.cpu_time: .nan: expected a number from 0.01 to 1000000 s"},
       {"version: 1\nname: two words\nplanners:\n  - {planner: push}\n" + kFamily,
-       "s.yaml:2: name: \"two words\": expected one word of letters, digits, _ - and ., "
+       "s.yaml:2: name: two words: expected one word of letters, digits, _ - and ., "
        "at most 60 of them"},
       {"version: 1\nname: s\nplanners:\n  - {planner: pull}\n" + kFamily,
        "s.yaml:4: planners.0.planner: pull: expected one of push, KPIECE1"},

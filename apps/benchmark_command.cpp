@@ -76,11 +76,11 @@ int list_problems(const suite::ProblemList& problems) {
 int run_all(const Options& options, const suite::SuiteFile& file,
             const suite::ProblemList& problems, const suite::PlannerTable& planners) {
   const Shard shard = parse_shard(options.shard);
-  suite::ResultsWriter writer(options.output, header_of(options, file, problems),
-                              options.resume);
   std::signal(SIGINT, request_stop);
   std::signal(SIGTERM, request_stop);
   std::signal(SIGXFSZ, SIG_IGN);  // a full disk is an error to report, not a death
+  suite::ResultsWriter writer(options.output, header_of(options, file, problems),
+                              options.resume);
   SuiteProgressLine line(options.progress_seconds);
   suite::RunOptions run;
   run.jobs = jobs_of(options);

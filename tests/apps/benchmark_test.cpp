@@ -217,12 +217,13 @@ TEST_F(BenchmarkCommand, TheSameTwiceDiffersByNoiseOnly) {
 }
 
 TEST_F(BenchmarkCommand, AChangeIsFound) {
-  // Twelve problems of one kind, once solved and once not: the budget is the difference.
+  // Enough work for all these problems, and next to none.
   const std::string head =
       "version: 1\nname: s\nfamilies:\n"
-      "  - {name: wide, among_walls: {object: square, count: 30}}\n"
+      "  - {name: wide, among_walls: {object: tee, count: 30}}\n"
+      "  - {name: can, random: {object: cylinder, count: 20}}\n"
       "planners:\n  - {planner: push, budget: ";
-  write_text(at("good.yaml"), head + "2e6}\n");
+  write_text(at("good.yaml"), head + "100}\n");
   write_text(at("poor.yaml"), head + "1}\n");
   ASSERT_EQ(benchmark(at("good.yaml") + " -o " + at("good")).exit_code, 0);
   ASSERT_EQ(benchmark(at("poor.yaml") + " -o " + at("poor")).exit_code, 0);
@@ -277,6 +278,7 @@ void kill_at_random(const std::string& suite, const std::string& file, int kills
   int before = 0;
   for (int i = 0; i < kills; ++i) {
     Running running({"benchmark", suite, "-o", file, "--resume", "--jobs", "2"});
+    while (!fs::exists(file)) sleep_for(1e-3);
     sleep_for(random.in(0.0, longest));
     const int what = i % 3;
     if (what != 0) {
@@ -289,7 +291,8 @@ void kill_at_random(const std::string& suite, const std::string& file, int kills
       running.signal(SIGKILL);
     }
     running.wait();
-    const int rows = rows_in(file);
+    // Killed before the first transaction was through, a file holds nothing yet.
+    const int rows = std::max(0, rows_in(file));
     EXPECT_GE(rows, before) << "rows were lost at kill " << i;
     before = std::max(rows, before);
   }

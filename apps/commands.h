@@ -25,6 +25,10 @@ struct SceneOptions {
 };
 void add_scene_options(CLI::App& command, SceneOptions& options);
 
+/// The line that a user would type to start this process again, for records of results.
+void remember_command_line(int argc, char** argv);
+const std::string& command_line();
+
 Command add_plan(CLI::App& app);
 Command add_check(CLI::App& app);
 Command add_calibrate(CLI::App& app);
@@ -37,6 +41,7 @@ Command add_query_contact(CLI::App& query);
 Command add_query_place(CLI::App& query);
 Command add_inspect(CLI::App& app);
 Command add_report(CLI::App& app);
+Command add_benchmark(CLI::App& app);
 Command add_mesh(CLI::App& app);  ///< not in builds without meshes
 
 }  // namespace prehensile::apps

@@ -24,6 +24,8 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
 
 namespace {
 
+std::string remembered_line;
+
 int run(int argc, char** argv) {
   CLI::App app{
       "Plans how a robot re-grips what it holds by pushing it against its surroundings"};
@@ -47,6 +49,7 @@ int run(int argc, char** argv) {
   const Command place = add_query_place(query);
   const Command inspect = add_inspect(app);
   const Command report = add_report(app);
+  const Command benchmark = add_benchmark(app);
   std::vector<std::pair<const CLI::App*, Command>> commands = {
       {app.get_subcommand("plan"), plan},
       {app.get_subcommand("check"), check},
@@ -59,7 +62,8 @@ int run(int argc, char** argv) {
       {query.get_subcommand("contact"), contact},
       {query.get_subcommand("place"), place},
       {app.get_subcommand("inspect"), inspect},
-      {app.get_subcommand("report"), report}};
+      {app.get_subcommand("report"), report},
+      {app.get_subcommand("benchmark"), benchmark}};
 #ifdef PREHENSILE_HAS_MESHES
   const Command mesh = add_mesh(app);
   commands.emplace_back(app.get_subcommand("mesh"), mesh);
@@ -76,11 +80,22 @@ int run(int argc, char** argv) {
 }
 
 }  // namespace
+
+void remember_command_line(int argc, char** argv) {
+  remembered_line.clear();
+  for (int i = 0; i < argc; ++i) {
+    remembered_line += (i > 0 ? " " : "") + std::string(argv[i]);
+  }
+}
+
+const std::string& command_line() { return remembered_line; }
+
 }  // namespace prehensile::apps
 
 int main(int argc, char** argv) {
   using namespace prehensile::apps;
   try {
+    remember_command_line(argc, argv);
     const int code = run(argc, argv);
     if (std::fflush(stdout) != 0) {
       std::fprintf(stderr, "prehensile: cannot write the output\n");

@@ -27,6 +27,10 @@ if(PREHENSILE_APPS)
   find_package(Threads REQUIRED)
 endif()
 
+if(PREHENSILE_APPS AND PREHENSILE_SUITE)
+  find_package(SQLite3 3.24 REQUIRED)
+endif()
+
 if(PREHENSILE_MESHES)
   find_package(assimp 5.2 REQUIRED)
   find_package(tinyxml2 REQUIRED)

@@ -261,6 +261,23 @@ void FieldReader::count(const char* key, std::uint64_t& into, const char*) {
   }
 }
 
+void FieldReader::whole(const char* key, int& into, int low, int high, Need need,
+                        const char*) {
+  const std::string expected =
+      "a whole number from " + std::to_string(low) + " to " + std::to_string(high);
+  const Value* value = take(key, need, expected);
+  if (!value) return;
+  int number = 0;
+  const char* const end = value->text.data() + value->text.size();
+  const auto [last, error] = std::from_chars(value->text.data(), end, number);
+  if (value->kind == Value::Kind::kPlain && error == std::errc() && last == end &&
+      number >= low && number <= high) {
+    into = number;
+  } else {
+    faults_.add(value->place, child(key), shown(*value) + ": expected " + expected);
+  }
+}
+
 void FieldReader::angle(const std::string& key, double& into, const Bounds& bounds,
                         const char* doc) {
   std::optional<double> given;

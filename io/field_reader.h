@@ -35,6 +35,7 @@ class FieldReader {
               const char*);
   void measured(const char* key, double& into, const Bounds& bounds, const char*);
   void count(const char* key, std::uint64_t& into, const char*);
+  void whole(const char* key, int& into, int low, int high, Need need, const char*);
   void angle(const std::string& key, double& into, const Bounds& bounds, const char*);
   void angle(const std::string& key, std::optional<double>& into, const Bounds& bounds,
              const char*);

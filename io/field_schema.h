@@ -52,6 +52,12 @@ class FieldSchema {
   void count(const char* key, std::uint64_t, const char* doc) {
     add(key, {{"type", "integer"}, {"minimum", 0}}, kRequired, doc);
   }
+  void whole(const char* key, int initial, int low, int high, Need need,
+             const char* doc) {
+    Json schema = {{"type", "integer"}, {"minimum", low}, {"maximum", high}};
+    if (need == kOptional) schema["default"] = initial;
+    add(key, schema, need, doc);
+  }
   void angle(const std::string& key, double initial, const Bounds& bounds,
              const char* doc);
   void angle(const std::string& key, const std::optional<double>&, const Bounds& bounds,

@@ -9,6 +9,7 @@
 ///   number(key, double)                  also optional<double>: absent if unset
 ///   measured(key, double)                NaN is written as null
 ///   count(key, integer)                  whole number >= 0
+///   whole(key, integer, low, high)       whole number in a range, ends included
 ///   angle(key, double)                   radians under `key`, or degrees under
 ///   `key`_deg;
 ///                                        also optional<double>

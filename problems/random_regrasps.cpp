@@ -4,22 +4,14 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
-#include <set>
+#include <vector>
 
-#include "mechanics/sticking.h"
-#include "primitives/roll.h"
-#include "problems/random_stream.h"
+#include "problems/push_chain.h"
 
 namespace prehensile {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kMostMoves = 5;
-constexpr double kShortestMove = 5e-3;  // [m]
-constexpr double kLongestMove = 40e-3;  // [m]
-constexpr double kLargestTurn = 2.0;    // [rad]
-constexpr int kTriesPerMove = 400;
 
 PrismShape random_tee(RandomStream& random) {
   const double width = random.in(0.06, 0.14);
@@ -98,112 +90,16 @@ Scene random_scene(RegraspFamily family, RandomStream& random) {
   return scene;
 }
 
-bool held(const Model& model, const PushContact& contact, const Vec2& p_OF) {
-  return holding_slack(model, p_OF, contact.g_O, Margin{}) > 0.0;
-}
-
 /// A place on the object that every contact leaves held.
 bool find_start(const std::vector<Vec2>& outline, const Model& model,
                 RandomStream& random, PlanarPose& start) {
   for (int i = 0; i < 200; ++i) {
     const Vec2 p_OF{random.in(-0.1, 0.1), random.in(-0.1, 0.1)};
-    const bool good = depth_inside(outline, p_OF) > 2e-3 &&
-                      std::all_of(model.contacts.begin(), model.contacts.end(),
-                                  [&](const PushContact& contact) {
-                                    return held(model, contact, p_OF);
-                                  });
+    const bool good = depth_inside(outline, p_OF) > 2e-3 && held_by_all(model, p_OF);
     start = pose_from_finger(p_OF, random.in(-kPi, kPi));
     if (good) return true;
   }
   return false;
-}
-
-/// The push sticks with the exact pads over the default margin, at points every 2 mm and
-/// 0.1 rad, stays on the object, ends where gravity is held, and is certified.
-bool sticks(const Model& model, const PlanarPose& X_HO, const LinearPush& push) {
-  const PushContact& contact = model.contacts[push.contact];
-  const Vec2 p_OF = finger_in_object(X_HO);
-  if (!held(model, contact, p_OF) || !held(model, contact, p_OF - push.travel * push.e)) {
-    return false;
-  }
-  const int parts =
-      1 + static_cast<int>(std::max(push.travel / 2e-3, std::abs(push.turn) / 0.1));
-  for (int i = 0; i <= parts; ++i) {
-    const double s = static_cast<double>(i) / parts;
-    const Vec2 p = p_OF - s * push.travel * push.e;
-    if (depth_inside(model.outline, p) < 1e-3) return false;
-    const PlanarPose pose = pose_from_finger(p, X_HO.theta + s * push.turn);
-    const StickTest test = exact_stick_test(model, contact, push.place, pose, push.e,
-                                            push.travel, push.turn, Margin{});
-    if (!(test.slack >= 0.0)) return false;
-  }
-  const Transition done = apply(model, {X_HO, 0.0}, push);
-  return done.completed() && done.slipped == 0.0;
-}
-
-std::optional<LinearPush> random_move(const Model& model, const PlanarPose& X_HO,
-                                      int avoided, RandomStream& random) {
-  for (int i = 0; i < kTriesPerMove; ++i) {
-    LinearPush push;
-    push.contact = random.below(static_cast<int>(model.contacts.size()));
-    const PushContact& contact = model.contacts[push.contact];
-    const double cone = std::atan(contact.mu);
-    push.e = rotated(random.in(-cone, cone), contact.n);
-    push.travel = random.in(kShortestMove, kLongestMove);
-    const double kappa = std::tan(random.in(-1.5, 1.5));
-    push.turn = kappa * push.travel / model.c;
-    if (push.contact == avoided || std::abs(push.turn) > kLargestTurn) continue;
-    if (sticks(model, X_HO, push)) return push;
-  }
-  return std::nullopt;
-}
-
-/// A roll by a random angle on a grip that the support makes unique, where it is
-/// possible.
-std::optional<Roll> random_roll(const Model& model, const Grasp& grasp,
-                                RandomStream& random) {
-  const double dpsi = random.in(-kPi, kPi);
-  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
-    const RollSection section = roll_section(model, static_cast<int>(i), grasp);
-    if (!section.possible || !(section.weight > 0.0)) continue;
-    const auto& friction = model.scene.gripper.friction;
-    const Roll roll{.contact = static_cast<int>(i),
-                    .travel = dpsi / section.psi_per_travel,
-                    .grip_force = 0.05 * section.weight / (friction[0] + friction[1])};
-    if (apply(model, grasp, roll).completed()) return roll;
-  }
-  return std::nullopt;
-}
-
-/// Draws pushes from the start of the model's scene; false if too few were found.
-bool draw_pushes(const Model& model, bool two_pushers, bool rolls, RandomStream& random,
-                 RandomRegrasp& problem) {
-  Grasp grasp = model.scene.start;
-  const int wanted = (two_pushers ? 2 : 1) + random.below(kMostMoves - two_pushers);
-  std::set<int> pushers;
-  for (int i = 0; i < wanted; ++i) {
-    const bool must_change = two_pushers && pushers.size() == 1 && i + 1 == wanted;
-    const auto move =
-        random_move(model, grasp.X_HO, must_change ? *pushers.begin() : -1, random);
-    if (!move) return false;
-    problem.pushes.push_back(*move);
-    pushers.insert(model.contacts[move->contact].pusher);
-    const Vec2 p_OF = finger_in_object(grasp.X_HO) - move->travel * move->e;
-    grasp.X_HO = pose_from_finger(p_OF, grasp.X_HO.theta + move->turn);
-  }
-  if (rolls) {
-    const auto roll = random_roll(model, grasp, random);
-    if (!roll) return false;
-    problem.pushes.push_back(*roll);
-    grasp = apply(model, grasp, *roll).end;
-  }
-  problem.pushers = static_cast<int>(pushers.size());
-  Goal& goal = problem.scene.goal.emplace();
-  goal.x = grasp.X_HO.x;
-  goal.y = grasp.X_HO.y;
-  goal.theta = wrapped(grasp.X_HO.theta);
-  if (rolls) goal.psi = wrapped(grasp.psi);
-  return true;
 }
 
 }  // namespace
@@ -225,7 +121,10 @@ RandomRegrasp random_regrasp(RegraspFamily family, std::uint64_t seed,
     }
     if (!check(problem.scene).empty()) continue;
     const Model model = prepare(problem.scene);
-    if (draw_pushes(model, two_pushers, rolls, random, problem)) return problem;
+    const ChainRange range{.least = two_pushers ? 2 : 1,
+                           .two_pushers = two_pushers,
+                           .rolls = rolls};
+    if (append_chain(model, range, random, problem)) return problem;
   }
 }
 

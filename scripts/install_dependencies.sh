@@ -10,6 +10,7 @@ packages=(
   libboost-filesystem-dev libboost-system-dev     # needs but does not ask for
   libnlopt-cxx-dev coinor-libipopt-dev            # optimisation
   libyaml-cpp-dev nlohmann-json3-dev libcli11-dev zlib1g-dev # files and command line
+  libsqlite3-dev                                  # results of benchmark suites
   libassimp-dev libpolyclipping-dev libtinyxml2-dev # meshes of objects
   libfccp-dev                                     # benchmarks only: tables of real pushes
   libgtest-dev libvalijson-dev                    # tests only

@@ -1,0 +1,184 @@
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/benchmark_commands.h"
+#include "apps/benchmark_progress.h"
+#include "apps/benchmark_text.h"
+#include "benchmarks/suite/run_suite.h"
+#include "io/plan_file.h"
+#include "io/scene_file.h"
+
+namespace prehensile::apps {
+namespace {
+
+std::atomic<bool> stop_requested{false};
+
+/// The first signal ends the suite after the rows that are there; a second one the
+/// program.
+void request_stop(int signal) {
+  stop_requested.store(true);
+  std::signal(signal, SIG_DFL);
+}
+
+struct Options {
+  SuiteOptions suite;
+  std::string output, shard = "1/1", only, scene;
+  std::string floor;
+  int jobs = 0;
+  double progress_seconds = 5.0;
+  bool resume = false, json = false, list = false;
+};
+
+int jobs_of(const Options& options) {
+  if (options.jobs > 0) return options.jobs;
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+suite::Results header_of(const Options& options, const suite::SuiteFile& file,
+                         const suite::ProblemList& problems) {
+  suite::Provenance provenance = suite::provenance_here(PREHENSILE_VERSION);
+  provenance.quick = options.suite.quick;
+  provenance.command = command_line();
+  return suite::header_of(file, problems, provenance);
+}
+
+/// One run again, in a process of its own, and what became of it.
+int run_only(const Options& options, const suite::SuiteFile& file,
+             const suite::ProblemList& problems, const suite::PlannerTable& planners) {
+  const suite::RunKey key = parse_run(options.only, file.suite, problems);
+  if (!options.scene.empty()) {
+    write_atomically(options.scene,
+                     scene_to_yaml(problems.scene(key.family, key.problem)));
+  }
+  const suite::Results header = header_of(options, file, problems);
+  const suite::RunRecord record = run_apart(file.suite, problems, planners, key);
+  std::printf("%s\n", to_json(header, {key, record}).dump(2).c_str());
+  return record.decided() ? kDone : kNegative;
+}
+
+int list_problems(const suite::ProblemList& problems) {
+  for (int family = 0; family < problems.families(); ++family) {
+    std::printf("%-40s %7d problems%s\n", problems.name(family).c_str(),
+                problems.count(family),
+                problems.is_constructed(family) ? ", made by pushes" : "");
+  }
+  std::printf("%-40s %7d problems\n", "all", problems.count());
+  return kDone;
+}
+
+/// Runs what the file lacks and tells how it went.
+int run_all(const Options& options, const suite::SuiteFile& file,
+            const suite::ProblemList& problems, const suite::PlannerTable& planners) {
+  const Shard shard = parse_shard(options.shard);
+  std::signal(SIGINT, request_stop);
+  std::signal(SIGTERM, request_stop);
+  std::signal(SIGXFSZ, SIG_IGN);  // a full disk is an error to report, not a death
+  suite::ResultsWriter writer(options.output, header_of(options, file, problems),
+                              options.resume);
+  SuiteProgressLine line(options.progress_seconds);
+  suite::RunOptions run;
+  run.jobs = jobs_of(options);
+  run.shard = shard.index;
+  run.shards = shard.count;
+  run.stop = &stop_requested;
+  run.progress = [&line](const suite::RunProgress& progress) { line.show(progress); };
+  const suite::RunCount count = run_suite(file.suite, problems, planners, run, writer);
+  writer.close(line.seconds());
+  line.end();
+
+  const suite::Results results = suite::read_results(options.output);
+  const suite::Summary summary = suite::summarise(results);
+  if (options.json) {
+    std::printf("%s\n", to_json(results, summary).dump(2).c_str());
+  } else {
+    std::fputs(describe(results, summary).c_str(), stdout);
+    std::printf("%d runs in %.1f s, %zu rows in %s\n", count.done, line.seconds(),
+                results.rows.size(), options.output.c_str());
+  }
+  if (count.stopped) {
+    std::fprintf(stderr, "stopped: go on with --resume\n");
+    return kNegative;
+  }
+  if (shard.count > 1) return kDone;  // the merged file is for judging
+  if (!summary.contradictions.empty()) return kNegative;
+  if (options.floor.empty()) return kDone;
+  const std::string below = missed(parse_floor(options.floor, results), results, summary);
+  std::fputs(below.c_str(), stderr);
+  return below.empty() ? kDone : kNegative;
+}
+
+int run(const Options& options) {
+  if (options.suite.file.empty()) {
+    throw BadInput("benchmark: expected a suite file, or merge, report, export or slurm");
+  }
+  const suite::PlannerTable planners = suite::planners_of_build();
+  const suite::SuiteFile file =
+      suite::read_suite(options.suite.file, suite::names(planners), options.suite.data);
+  const suite::ProblemList problems(file, options.suite.quick);
+  if (options.list) return list_problems(problems);
+  if (!options.only.empty()) return run_only(options, file, problems, planners);
+  if (options.output.empty()) {
+    throw BadInput("benchmark: -o: missing: expected the file of results to write");
+  }
+  return run_all(options, file, problems, planners);
+}
+
+}  // namespace
+
+Command add_benchmark(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App& command = *app.add_subcommand(
+      "benchmark", "run planners on a suite of problems, one process per run");
+  command.add_option("SUITE", options->suite.file, "suite file (YAML)");
+  command.add_option("-o,--output", options->output, "file of results (SQLite)");
+  command.add_option("--data", options->suite.data,
+                     "folder of the files that the suite names; by default its own");
+  command.add_flag("--quick", options->suite.quick, "few problems of each family");
+  command
+      .add_option("--jobs", options->jobs, "processes at a time; 0: one for each core")
+      ->check(CLI::Range(0, 1024));
+  command.add_flag("--resume", options->resume,
+                   "go on with the file of results where it ends, or begin it");
+  command.add_option("--shard", options->shard,
+                     "I/N: every N-th run only, from the I-th; merge the files later");
+  command.add_option("--only", options->only,
+                     "PROBLEM,PLANNER,SEED: one run again, as in "
+                     "wide_square/17,push,1; prints its row as JSON");
+  command.add_option("--scene", options->scene,
+                     "with --only: write the scene of the problem");
+  command.add_flag("--list", options->list, "print families and counts, run nothing");
+  command.add_option("--fail-below", options->floor,
+                     "exit code 1 if a planner's success over all families is less: "
+                     "success=0.99, decided=0.9, push.success=0.99");
+  command
+      .add_option("--progress-s", options->progress_seconds,
+                  "seconds between lines of progress")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  command.add_flag("--json", options->json, "print one JSON object on stdout");
+  const Command merge = add_benchmark_merge(command);
+  const Command report = add_benchmark_report(command);
+  const Command exporting = add_benchmark_export(command);
+  const Command slurm = add_benchmark_slurm(command);
+  command.require_subcommand(0, 1);
+  command.footer(
+      "Ctrl-C keeps the rows that are there (exit code 1); --resume goes on. Crashes, "
+      "time-outs\nand exhausted memory of a run are rows.\n"
+      "Example:\n  prehensile benchmark benchmarks/suites/quick.yaml -o quick.sqlite\n"
+      "  prehensile benchmark report quick.sqlite -o quick.html");
+  return [options, &command, merge, report, exporting, slurm] {
+    if (command.got_subcommand("merge")) return merge();
+    if (command.got_subcommand("report")) return report();
+    if (command.got_subcommand("export")) return exporting();
+    if (command.got_subcommand("slurm")) return slurm();
+    return run(*options);
+  };
+}
+
+}  // namespace prehensile::apps

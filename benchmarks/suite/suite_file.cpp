@@ -1,0 +1,173 @@
+#include "benchmarks/suite/suite_file.h"
+
+#include <algorithm>
+#include <cinttypes>
+#include <cmath>
+#include <cstdio>
+#include <set>
+
+#include "benchmarks/suite/suite_fields.h"
+#include "io/document.h"
+#include "io/field_reader.h"
+#include "io/field_schema.h"
+
+namespace prehensile::suite {
+namespace {
+
+using internal::Faults;
+using internal::Value;
+
+constexpr auto kVisit = [](auto& fields, Suite& suite) { visit_suite(fields, suite); };
+
+/// Faults of values, each at its field's line.
+class Judge {
+ public:
+  Judge(const Value& root, Faults& faults) : root_(root), faults_(faults) {}
+
+  void require(bool sound, const std::string& field, const std::string& what) {
+    if (sound || faults_.concerns(field)) return;
+    const Value& value = internal::deepest(root_, field);
+    const bool is_single =
+        value.kind == Value::Kind::kPlain || value.kind == Value::Kind::kText;
+    faults_.add(internal::place_of(root_, field), field,
+                (is_single ? internal::shown(value) + ": " : "") + "expected " + what);
+  }
+
+  void word(const std::string& word, const std::string& field) {
+    const bool sound = !word.empty() && word.size() <= 60 &&
+                       std::all_of(word.begin(), word.end(), [](char c) {
+                         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                                (c >= '0' && c <= '9') || c == '_' || c == '-' ||
+                                c == '.';
+                       });
+    require(sound, field, "one word of letters, digits, _ - and ., at most 60 of them");
+  }
+
+  void unique(std::set<std::string>& names, const std::string& name,
+              const std::string& field) {
+    require(names.insert(name).second, field, "a name that no other entry has");
+  }
+
+  void range(const Range& range, const std::string& field) {
+    require(range[0] <= range[1], field, "the lower end first");
+  }
+
+ private:
+  const Value& root_;
+  Faults& faults_;
+};
+
+void judge_fixtures(const FixtureRange& range, const std::string& path, Judge& judge) {
+  judge.range(range.size, path + ".size");
+  judge.range(range.mass, path + ".mass");
+  judge.range(range.pad_size, path + ".pad_size");
+  judge.range(range.pad_aspect, path + ".pad_aspect");
+  judge.range(range.finger_friction, path + ".finger_friction");
+  judge.range(range.pusher_friction, path + ".pusher_friction");
+  judge.range(range.strength, path + ".strength");
+  judge.range(range.count, path + ".pusher_count");
+  judge.require(range.count[0] == std::floor(range.count[0]) &&
+                    range.count[1] == std::floor(range.count[1]),
+                path + ".pusher_count", "whole numbers");
+}
+
+void judge_files(const std::vector<std::string>& files, const std::string& path,
+                 Judge& judge) {
+  judge.require(!files.empty(), path, "at least one file");
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const std::filesystem::path file = files[i];
+    const bool inside =
+        !files[i].empty() && file.is_relative() &&
+        std::none_of(file.begin(), file.end(), [](const auto& p) { return p == ".."; });
+    judge.require(inside, path + '.' + std::to_string(i),
+                  "a path in the suite's folder or below");
+  }
+}
+
+void judge_source(const Family& family, const std::string& path, Judge& judge) {
+  if (const auto* fixtures = std::get_if<Fixtures>(&family.source)) {
+    judge_fixtures(fixtures->range, path + ".fixtures", judge);
+  } else if (const auto* scenes = std::get_if<SceneFiles>(&family.source)) {
+    judge_files(scenes->files, path + ".scenes.files", judge);
+  } else if (const auto* meshes = std::get_if<MeshFiles>(&family.source)) {
+    judge_files(meshes->files, path + ".meshes.files", judge);
+  }
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string out;
+  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
+  return out;
+}
+
+void judge_suite(const Suite& suite, const std::vector<std::string>& planners,
+                 Judge& judge) {
+  judge.word(suite.name, "name");
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < suite.families.size(); ++i) {
+    const std::string path = "families." + std::to_string(i);
+    judge.word(suite.families[i].name, path + ".name");
+    judge.unique(names, suite.families[i].name, path + ".name");
+    judge_source(suite.families[i], path, judge);
+  }
+  names.clear();
+  for (std::size_t i = 0; i < suite.planners.size(); ++i) {
+    const PlannerEntry& entry = suite.planners[i];
+    const std::string path = "planners." + std::to_string(i);
+    judge.require(
+        std::find(planners.begin(), planners.end(), entry.planner) != planners.end(),
+        path + ".planner", "one of " + listed(planners));
+    judge.require(entry.budget == std::floor(entry.budget), path + ".budget",
+                  "a whole number");
+    judge.word(entry.label(), path + ".name");
+    judge.unique(names, entry.label(), path + ".name");
+  }
+}
+
+}  // namespace
+
+SuiteFile parse_suite(const std::string& text, const std::string& label,
+                      const std::vector<std::string>& planners,
+                      const std::filesystem::path& folder) {
+  Faults faults(label);
+  const Value root = internal::parse_yaml(text, faults);
+  SuiteFile file{.suite = {}, .text = text, .folder = folder};
+  internal::FieldReader::read(root, "", faults, file.suite, kVisit);
+  Judge judge(root, faults);
+  judge_suite(file.suite, planners, judge);
+  faults.raise();
+  return file;
+}
+
+SuiteFile read_suite(const std::filesystem::path& file,
+                     const std::vector<std::string>& planners,
+                     const std::filesystem::path& folder) {
+  const std::string text = internal::read_text(file, internal::kLargestScene);
+  return parse_suite(text, file.string(), planners,
+                     folder.empty() ? file.parent_path() : folder);
+}
+
+std::string suite_schema() {
+  Suite defaults;
+  nlohmann::ordered_json schema = {
+      {"$schema", "http://json-schema.org/draft-07/schema#"},
+      {"title", "Benchmark suite of prehensile"},
+      {"description",
+       "Which problems, which planners, how often, within which limits. SI units unless "
+       "the key says otherwise."}};
+  schema.update(internal::FieldSchema::describe(defaults, kVisit));
+  return schema.dump(2) + '\n';
+}
+
+std::string digest_of(const std::string& text) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char c : text) {
+    hash ^= static_cast<unsigned char>(c);
+    hash *= 0x100000001b3u;
+  }
+  char hex[17];
+  std::snprintf(hex, sizeof hex, "%016" PRIx64, hash);
+  return hex;
+}
+
+}  // namespace prehensile::suite

@@ -1,0 +1,122 @@
+#include "benchmarks/suite/worker_pool.h"
+
+#include <chrono>
+#include <csignal>
+#include <map>
+#include <thread>
+#include <unistd.h>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace prehensile::suite {
+namespace {
+
+Ending end_of(const ProcessLimits& limits, const std::function<std::string()>& work) {
+  WorkerPool pool(1, limits);
+  pool.start(7, work);
+  for (;;) {
+    if (const auto ending = pool.wait(1.0)) return *ending;
+  }
+}
+
+/// Not to be optimised away.
+volatile int sink = 0;
+
+TEST(WorkerPool, BringsBackWhatTheWorkReturns) {
+  const std::string large(300'000, 'x');  // more than a pipe holds
+  const Ending ending = end_of({}, [&] { return large; });
+  EXPECT_EQ(ending.kind, Ending::Kind::kDone);
+  EXPECT_EQ(ending.ticket, 7);
+  EXPECT_EQ(ending.text, large);
+  EXPECT_GT(ending.memory_MB, 0.0);
+}
+
+TEST(WorkerPool, SurvivesACrash) {
+  const Ending ending = end_of({}, []() -> std::string {
+    ::raise(SIGSEGV);
+    return "not reached";
+  });
+  EXPECT_EQ(ending.kind, Ending::Kind::kCrashed);
+  EXPECT_EQ(ending.signal, SIGSEGV);
+}
+
+TEST(WorkerPool, NoticesAnEarlyExit) {
+  const Ending ending = end_of({}, []() -> std::string { ::_exit(3); });
+  EXPECT_EQ(ending.kind, Ending::Kind::kCrashed);
+  EXPECT_EQ(ending.signal, 0);
+}
+
+TEST(WorkerPool, EndsWhatComputesForEver) {
+  const Ending ending =
+      end_of({.cpu_time = 0.05, .wall_time = 60.0}, []() -> std::string {
+        for (;;) sink = sink + 1;
+      });
+  EXPECT_EQ(ending.kind, Ending::Kind::kTimeout);
+  EXPECT_GE(ending.cpu_time, 0.04);
+}
+
+TEST(WorkerPool, EndsWhatWaitsForEver) {
+  const Ending ending =
+      end_of({.cpu_time = 60.0, .wall_time = 0.05}, []() -> std::string {
+        for (;;) ::pause();
+      });
+  EXPECT_EQ(ending.kind, Ending::Kind::kTimeout);
+}
+
+#if !defined(__SANITIZE_ADDRESS__)
+TEST(WorkerPool, EndsWhatEatsMemory) {
+  const ProcessLimits limits{.memory_MB = 100.0};
+  const auto eat = [] {
+    std::vector<std::vector<char>> eaten;
+    for (;;) eaten.emplace_back(10'000'000, 'x');
+  };
+  const Ending thrown = end_of(limits, [&]() -> std::string {
+    eat();
+    return "";
+  });
+  EXPECT_EQ(thrown.kind, Ending::Kind::kOutOfMemory);
+  EXPECT_LT(thrown.memory_MB, 400.0);
+  const Ending inside_noexcept = end_of(limits, [&]() -> std::string {
+    [&]() noexcept { eat(); }();
+    return "";
+  });
+  EXPECT_EQ(inside_noexcept.kind, Ending::Kind::kOutOfMemory);
+}
+#endif
+
+TEST(WorkerPool, RunsSeveralAtATime) {
+  WorkerPool pool(3, {});
+  std::map<int, std::string> texts;
+  int started = 0;
+  while (started < 20 || !pool.is_idle()) {
+    if (started < 20 && !pool.is_full()) {
+      pool.start(started, [started] { return std::to_string(started * started); });
+      ++started;
+      continue;
+    }
+    if (const auto ending = pool.wait(10.0)) texts[ending->ticket] = ending->text;
+  }
+  ASSERT_EQ(texts.size(), 20u);
+  for (const auto& [ticket, text] : texts)
+    EXPECT_EQ(text, std::to_string(ticket * ticket));
+}
+
+TEST(WorkerPool, KillsWhatRunsWhenItIsDestroyed) {
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  {
+    WorkerPool pool(1, {});
+    pool.start(0, [&]() -> std::string {
+      for (;;) ::pause();
+    });
+  }
+  // The worker held the writing end as well: with it gone, reading ends.
+  ::close(ends[1]);
+  char byte = 0;
+  EXPECT_EQ(::read(ends[0], &byte, 1), 0);
+  ::close(ends[0]);
+}
+
+}  // namespace
+}  // namespace prehensile::suite

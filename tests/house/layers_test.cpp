@@ -29,8 +29,11 @@ const std::map<std::string, std::set<std::string>> kLeftOf = {
     {"mesh", {"scene", "mesh"}},
     {"io", {"scene", "optimisation", "mechanics", "primitives", "planner", "mesh", "io"}},
     {"plot", {"plot"}},
+    {"viewer",
+     {"scene", "optimisation", "mechanics", "primitives", "planner", "plot", "viewer"}},
     {"apps",
      {"scene", "optimisation", "mechanics", "primitives", "planner", "mesh", "io", "plot",
+      "viewer",
       "apps"}},
 };
 
@@ -50,7 +53,7 @@ std::vector<Room> rooms() {
       room("^nlopt", "^optimisation/nlopt_backend\\.cpp$"),
       room("^Ip.*\\.hpp$|^coin", "^optimisation/ipopt_backend\\.cpp$"),
       room("^yaml-cpp/", "^io/.*"),
-      room("^nlohmann/", "^(io|apps)/.*"),
+      room("^nlohmann/", "^(io|apps|viewer)/.*"),
       room("^CLI/", "^apps/.*"),
       room("^assimp/", "^mesh/import\\.cpp$"),
       room("^polyclipping/", "^mesh/plane_regions\\.cpp$"),

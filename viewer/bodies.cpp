@@ -85,7 +85,7 @@ PusherBody pusher_body(const Model& model, const Pusher& pusher) {
   body.goes_on_along = std::isinf(length);
   body.goes_on_across = std::isinf(width);
   body.length = body.goes_on_along ? endless : length;
-  body.width = body.goes_on_across ? endless : width;
+  body.width = body.goes_on_across ? 2.0 * reach_of(model) : width;
   return body;
 }
 

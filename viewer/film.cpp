@@ -32,13 +32,23 @@ std::string kind_of(const Push& push) {
   return kind_name(linear.travel, linear.turn, 0.0);
 }
 
+/// The object moves with the pusher as one body, held by all points that could.
+bool rides(const PushContact& contact, const FilmFrame& frame) {
+  const PlanarPose X_PO = compose(inverse(frame.X_HP), frame.grasp.X_HO);
+  const std::vector<PointLoad>& loads = frame.loads.pusher;
+  const std::size_t least = contact.is_point ? 1 : 2;
+  return std::hypot(X_PO.x, X_PO.y) < kRides && std::abs(X_PO.theta) < kRides &&
+         loads.size() >= least &&
+         std::all_of(loads.begin(), loads.end(), [](const PointLoad& load) {
+           return load.mode == ContactMode::kStick;
+         });
+}
+
 /// Slack and motion cone, where the object rides on the pusher.
 void add_margins(const Model& model, const LinearPush& push, const Margin& margin,
                  FilmFrame& frame) {
-  const PlanarPose X_PO = compose(inverse(frame.X_HP), frame.grasp.X_HO);
-  const bool rides = std::hypot(X_PO.x, X_PO.y) < kRides && std::abs(X_PO.theta) < kRides;
-  if (!rides) return;
   const PushContact& contact = model.contacts[static_cast<std::size_t>(push.contact)];
+  if (!rides(contact, frame)) return;
   const Vec2 e = rotated(frame.s * push.bend, push.e);
   const auto slack = [&](const Margin& box) {
     return exact_stick_test(model, contact, push.place, frame.grasp.X_HO, e, push.travel,
@@ -101,11 +111,11 @@ FilmPush film_push(const Model& model, const Grasp& start, const Push& push,
   const double place = std::holds_alternative<Roll>(push) ? 0.0 : as_linear(push).place;
   filmed.p_PC = 0.5 * (contact.a + contact.b) + place * contact.t;
   TransitionOptions dense = options.transition;
-  dense.max_step = std::min(dense.max_step, 1.0 / frames);
+  dense.max_step = std::min(dense.max_step, 2.0 / frames);
   std::vector<Sample> trace;
   filmed.transition = apply(model, start, push, dense, &trace);
   if (trace.empty()) trace.push_back({.s = 0.0, .grasp = start});
-  const auto most = static_cast<std::size_t>(2 * frames + 2);
+  const auto most = static_cast<std::size_t>(frames);
   for (const Sample& sample : thinned(trace, most)) {
     filmed.frames.push_back(frame_at(model, filmed, margin, sample));
   }
@@ -115,6 +125,18 @@ FilmPush film_push(const Model& model, const Grasp& start, const Push& push,
 PlanarPose planar(const ArmPose& pose) {
   return {pose.position.x(), pose.position.y(),
           2.0 * std::atan2(pose.orientation.z(), pose.orientation.w())};
+}
+
+/// A retreat takes the same way, but from where the push has left the hand: the robot's
+/// motion is that of plans, whose objects end flush with their pushers.
+void retreat_from(const Film& film, FilmPhase& pushed, FilmPhase& retreat) {
+  if (pushed.kind != ArmPhase::kPush) return;
+  const FilmPush& push = film.pushes[static_cast<std::size_t>(pushed.push)];
+  const PlanarPose X_WP = compose(pushed.X_WH_from, push.frames.front().X_HP);
+  const PlanarPose X_WH = compose(X_WP, inverse(push.frames.back().X_HP));
+  const Vec2 way = translation(retreat.X_WH_to) - translation(retreat.X_WH_from);
+  pushed.X_WH_to = retreat.X_WH_from = X_WH;
+  retreat.X_WH_to = {X_WH.x + way.x(), X_WH.y + way.y(), X_WH.theta};
 }
 
 /// The robot's motion for the pushes as far as they went, phase by phase.
@@ -148,6 +170,10 @@ std::vector<FilmPhase> phases_of(const Model& model, const Film& film,
     phases.back().X_WH_to = X_WH;
     phases.back().z_to = z;
   }
+  for (std::size_t i = 1; i < phases.size(); ++i) {
+    if (phases[i].kind == ArmPhase::kRetreat)
+      retreat_from(film, phases[i - 1], phases[i]);
+  }
   return phases;
 }
 
@@ -156,7 +182,7 @@ std::vector<FilmPhase> phases_of(const Model& model, const Film& film,
 Film film(const Model& model, const Plan& plan, const FilmOptions& options) {
   Film result;
   const int count = std::clamp(static_cast<int>(plan.pushes.size()), 1, options.pushes);
-  const int frames = std::clamp(options.frames / count, 4, 40);
+  const int frames = std::clamp(options.frames / count, 3, 80);
   Replay replayed;
   if (options.is_plan && plan.usable()) {
     replayed = replay(model, plan);

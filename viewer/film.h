@@ -65,8 +65,9 @@ struct Film {
 };
 
 struct FilmOptions {
-  int frames = 400;  ///< about so many in all, at least 4 and at most 40 per push
-  int pushes = 150;  ///< at most
+  int frames = 300;  ///< at most, in all: 3 to 80 per push; a single push has all of 80
+                     ///< only if it slips or turns
+  int pushes = 100;  ///< at most
   TransitionOptions transition;
   ArmLimits limits;
   bool is_plan = true;  ///< compare with what the plan states; false: one push to look at

@@ -14,6 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::size_t kPadPoints = 15'000;  // written in all: more would be a large page
 constexpr std::size_t kMostOutcomes = 400;  // drawn; they are draws, so the first will do
 
 /// Six digits.
@@ -142,7 +143,10 @@ Json pad_forces(const std::vector<PointLoad>& pad) {
 Json pads_json(const ContactLoads& loads, std::array<Json, 2>& last_places) {
   Json out = Json::array();
   for (std::size_t jaw = 0; jaw < 2; ++jaw) {
-    Json pad = {{"forces", pad_forces(loads.pad[jaw])}};
+    Json pad = Json::object();
+    Json forces = pad_forces(loads.pad[jaw]);
+    if (jaw == 0 || forces != out[0]["forces"]) pad["forces"] = std::move(forces);
+    if (loads.pad[jaw].size() == 1) pad["load"] = load_json(loads.pad[jaw].front());
     const Json places = pad_places(loads.pad[jaw]);
     if (places != last_places[jaw]) pad["places"] = last_places[jaw] = places;
     out.push_back(pad);
@@ -150,7 +154,7 @@ Json pads_json(const ContactLoads& loads, std::array<Json, 2>& last_places) {
   return out;
 }
 
-Json frame_json(const FilmFrame& frame, std::array<Json, 2>& last_places) {
+Json frame_json(const FilmFrame& frame) {
   Json out = {{"s", number(frame.s)},
               {"X_HO", grasp(frame.grasp)},
               {"X_HP", pose(frame.X_HP)},
@@ -160,7 +164,6 @@ Json frame_json(const FilmFrame& frame, std::array<Json, 2>& last_places) {
               {"robust_slack", number(frame.robust_slack)},
               {"status", std::string(name(frame.sample.status))},
               {"certificate", number(frame.loads.certificate)},
-              {"pads", pads_json(frame.loads, last_places)},
               {"pusher", Json::array()}};
   if (frame.z_HO != 0.0) out["z_HO"] = fine(frame.z_HO);
   if (frame.z_HP != 0.0) out["z_HP"] = fine(frame.z_HP);
@@ -185,7 +188,18 @@ Json events_json(const Transition& transition) {
   return out;
 }
 
-Json push_json(const Model& model, const FilmPush& push) {
+/// Of how many frames one has its pads written.
+std::size_t pad_stride(const Film& film) {
+  std::size_t points = 0;
+  for (const FilmPush& push : film.pushes) {
+    for (const FilmFrame& frame : push.frames) {
+      for (const auto& pad : frame.loads.pad) points += pad.size();
+    }
+  }
+  return 1 + points / kPadPoints;
+}
+
+Json push_json(const Model& model, const FilmPush& push, std::size_t stride) {
   const PushContact& contact = model.contacts[static_cast<std::size_t>(push.contact)];
   const auto face = static_cast<std::size_t>(contact.face);
   const Transition& done = push.transition;
@@ -206,8 +220,10 @@ Json push_json(const Model& model, const FilmPush& push) {
               {"events", events_json(done)},
               {"frames", Json::array()}};
   std::array<Json, 2> last_places;
-  for (const FilmFrame& frame : push.frames) {
-    out["frames"].push_back(frame_json(frame, last_places));
+  for (std::size_t i = 0; i < push.frames.size(); ++i) {
+    Json frame = frame_json(push.frames[i]);
+    if (i % stride == 0) frame["pads"] = pads_json(push.frames[i].loads, last_places);
+    out["frames"].push_back(std::move(frame));
   }
   return out;
 }

@@ -51,7 +51,8 @@ class Panel {
     std::string data;
     for (const Vec2& p : points) {
       const Vec2 q = to_px(p);
-      data += (data.empty() ? "M" : "L") + px(q.x()) + ' ' + px(q.y());
+      data += data.empty() ? 'M' : 'L';
+      data += px(q.x()) + ' ' + px(q.y());
     }
     drawing_.path(data + 'Z', fill, opacity, stroke);
   }

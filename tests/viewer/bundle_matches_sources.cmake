@@ -15,7 +15,7 @@ foreach(name build.mjs package-lock.json ${names})
 endforeach()
 string(SHA256 expected "${digests}")
 file(STRINGS ${VIEWER}/bundle/viewer.js first LIMIT_COUNT 1 LIMIT_INPUT 200)
-if(NOT first MATCHES "sources ${expected};")
+if(NOT first MATCHES "sources ${expected}")
   message(FATAL_ERROR "viewer/bundle/viewer.js was not made of viewer/source: npm run build\n"
     "  expected ${expected}\n  found ${first}")
 endif()

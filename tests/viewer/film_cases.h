@@ -54,7 +54,7 @@ inline const std::vector<FilmCase>& film_cases() {
     cases.push_back(
         pushed("paper/slide.yaml", LinearPush{.place = 0.012, .e = x, .travel = 0.02}));
     cases.push_back(pushed("paper/pivot.yaml", Pivot{.place = -0.03, .turn = 0.5}));
-    cases.push_back(pushed("paper/roll.yaml", Roll{.travel = 0.02}));
+    cases.push_back(pushed("paper/roll.yaml", Roll{.travel = 0.02, .grip_force = 1.0}));
     cases.push_back(pushed("paper/roll_prism.yaml", Roll{.travel = 0.02}));
     cases.push_back(pushed("tilted_hand.yaml", LinearPush{.e = x, .travel = 0.01}));
     cases.push_back(planned("published/tee_21.yaml"));

@@ -18,12 +18,14 @@ function restToRestInverse(s) {
   return 0.5 * (low + high);
 }
 
-/// Places of pads are written only where they change.
+/// Places of pads are written only where they change, forces of the second pad only where they
+/// are not those of the first.
 function fillPlaces(push) {
   const last = [[], []];
   for (const frame of push.frames) {
     frame.pads.forEach((pad, jaw) => {
       last[jaw] = pad.places ??= last[jaw];
+      pad.forces ??= frame.pads[0].forces;
     });
   }
 }

@@ -48,6 +48,7 @@ class Viewer {
     part.moment = new Moment(film);
     const letter = this.films.length > 1 ? `${'AB'[i]}: ` : '';
     part.figure = element('figure', {class: 'stage'}, part.failure ?? canvas,
+      part.stage && film.data.g_W.some((g) => g !== 0) ? element('span', {class: 'gravity'}, 'gravity') : null,
       element('figcaption', {}, `${letter}${film.data.name}`));
     part.side = element('section', {class: 'side', 'aria-label': `${letter}${film.data.name}`},
       this.films.length > 1 ? element('h2', {}, `${letter}${film.data.name}`) : null,

@@ -4,11 +4,14 @@ import {
   LineBasicMaterial, LineSegments, Matrix4, MeshBasicMaterial, Vector3,
 } from 'three';
 
+import {Arrow, overlay} from './arrows.js';
+
 const kMost = 96;  // points of a pad
 
 export class PadMarks {
   constructor(parent, film, reach, colours) {
     this.film = film;
+    this.reach = reach;
     this.low = new Color(colours.pressureLow);
     this.high = new Color(colours.pressureHigh);
     this.group = new Group();
@@ -29,14 +32,26 @@ export class PadMarks {
     discs.renderOrder = 1;
     lines.renderOrder = 2;
     discs.frustumCulled = lines.frustumCulled = false;
-    this.group.add(discs, lines);
-    return {side, discs, lines, lift: 0.065 * reach};
+    const arrow = new Arrow(overlay(colours.force), 0.01 * reach);
+    this.group.add(discs, lines, arrow);
+    return {side, discs, lines, arrow, lift: 0.065 * reach};
   }
 
   show({frame, jaw_z}) {
     this.group.visible = Boolean(frame);
     if (!frame) return;
-    this.jaws.forEach((jaw, i) => this.#showJaw(jaw, frame.pads[i], jaw_z[i]));
+    this.jaws.forEach((jaw, i) => {
+      this.#showJaw(jaw, frame.pads[i], jaw_z[i]);
+      this.#showResultant(jaw, frame.pads[i].load);
+    });
+  }
+
+  /// The force of a pad that touches along a line, to the scale of the pusher's.
+  #showResultant({arrow}, load) {
+    arrow.visible = false;
+    if (!load) return;
+    const scale = (0.8 * this.reach) / this.film.mostForce;
+    arrow.point(new Vector3(...load.p), new Vector3(...load.force).multiplyScalar(scale));
   }
 
   #showJaw({side, discs, lines, lift}, {places, forces}, z) {

@@ -1,6 +1,6 @@
 // Solids of the scene as three.js geometry, in metres.
 import {
-  BoxGeometry, BufferGeometry, CylinderGeometry, ExtrudeGeometry, Float32BufferAttribute,
+  BoxGeometry, BufferGeometry, CylinderGeometry, EdgesGeometry, ExtrudeGeometry, Float32BufferAttribute,
   Matrix4, Shape, SphereGeometry,
 } from 'three';
 
@@ -39,9 +39,40 @@ function lyingPrism({outline, low, high, axis}) {
 
 function cylinder({radius, length, axis}) {
   const geometry = new CylinderGeometry(radius, radius, length, 64);  // along y
+  geometry.userData.edges = cylinderEdges(radius, length);
+  for (const turn of [geometry, geometry.userData.edges]) turnTo(turn, axis);
+  return geometry;
+}
+
+function turnTo(geometry, axis) {
   if (axis === 'x') geometry.rotateZ(-0.5 * Math.PI);
   if (axis === 'z') geometry.rotateX(0.5 * Math.PI);
+}
+
+/// Its rims, and four lines that show how it turns, one of them on to the middle.
+function cylinderEdges(radius, length) {
+  const half = 0.5 * length;
+  const points = [];
+  const steps = 64;
+  for (let i = 0; i < steps; ++i) {
+    const [a, b] = [i, i + 1].map((k) => (2 * Math.PI * k) / steps);
+    for (const y of [-half, half]) {
+      points.push(radius * Math.cos(a), y, radius * Math.sin(a), radius * Math.cos(b), y, radius * Math.sin(b));
+    }
+  }
+  for (let i = 0; i < 4; ++i) {
+    const [x, z] = [radius * Math.cos(0.5 * Math.PI * i), radius * Math.sin(0.5 * Math.PI * i)];
+    points.push(x, -half, z, x, half, z);
+  }
+  for (const y of [-half, half]) points.push(0, y, 0, radius, y, 0);
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new Float32BufferAttribute(points, 3));
   return geometry;
+}
+
+/// The lines that make a shape readable.
+export function edgesOf(geometry) {
+  return geometry.userData.edges?.clone() ?? new EdgesGeometry(geometry, 25);
 }
 
 /// The side of a body from a mesh: a strip per edge of its silhouette.

@@ -1,7 +1,7 @@
 // One film on one canvas: the scene graph is that of the frames, W > H > O, and the whole of
 // it is turned so that either the world or the hand stands still.
 import {
-  Color, DirectionalLight, EdgesGeometry, Group, HemisphereLight, LineBasicMaterial,
+  Color, DirectionalLight, Group, HemisphereLight, LineBasicMaterial,
   LineSegments, Matrix4, Mesh, MeshLambertMaterial, PerspectiveCamera, Quaternion, Scene,
   Vector3, WebGLRenderer, DoubleSide,
 } from 'three';
@@ -11,14 +11,14 @@ import {Arrow, overlay} from './arrows.js';
 import {ContactMarks} from './contact_marks.js';
 import {PadMarks} from './pad_marks.js';
 import {inverse} from './pose.js';
-import {objectGeometries, prism, pusherGeometry} from './shapes.js';
+import {edgesOf, objectGeometries, prism, pusherGeometry} from './shapes.js';
 import {Traces} from './traces.js';
 
 const kZ = new Vector3(0, 0, 1);
 const kAxes = {x: new Vector3(1, 0, 0), y: new Vector3(0, 1, 0), z: new Vector3(0, 0, 1)};
 
 const kViews = {
-  free: [0.45, 0.5, 1.6],
+  free: [0.3, 0.32, 1.68],
   front: [0, 0, 1.8],
   side: [1.8, 0.25, 0.25],
 };
@@ -29,7 +29,7 @@ function solid(geometry, colour, opacity, ink) {
     color: colour, transparent: opacity < 1, opacity, depthWrite: opacity > 0.5, side: DoubleSide,
   });
   group.add(new Mesh(geometry, material));
-  group.add(new LineSegments(new EdgesGeometry(geometry, 25), new LineBasicMaterial({color: ink})));
+  group.add(new LineSegments(edgesOf(geometry), new LineBasicMaterial({color: ink})));
   return group;
 }
 
@@ -139,7 +139,7 @@ export class Stage {
   }
 
   #outline(X_HO, colour, opacity) {
-    this.edges ??= objectGeometries(this.film.data.object).map((geometry) => new EdgesGeometry(geometry, 25));
+    this.edges ??= objectGeometries(this.film.data.object).map(edgesOf);
     const group = new Group();
     const material = new LineBasicMaterial({color: colour, transparent: true, opacity});
     for (const edges of this.edges) group.add(new LineSegments(edges.clone(), material));
@@ -153,7 +153,7 @@ export class Stage {
   }
 
   look(view) {
-    const [x, y, z] = kViews[view].map((value) => 4.1 * this.reach * value);
+    const [x, y, z] = kViews[view].map((value) => 3.3 * this.reach * value);
     this.controls.target.set(0, 0, 0);
     this.camera.position.set(x, y, z);
     this.controls.update();

@@ -18,10 +18,12 @@ export class Traces {
     this.counts = [];  // frames before each push
     const points = [];
     const z = film.data.object.half_thickness;
+    // An object that can roll turns its faces away: its path is none in the pad plane.
+    const {prisms, cylinders} = film.data.object;
+    const canRoll = [...prisms, ...cylinders].some(({axis}) => axis !== 'z');
     for (const push of film.data.pushes) {
       this.counts.push(points.length / 3);
-      // A rolling object turns its faces away: there the path is none in the pad plane.
-      if (push.kind === 'roll') continue;
+      if (canRoll) continue;
       for (const frame of push.frames) points.push(...inverse(frame.X_HO).slice(0, 2), z);
     }
     this.whole = line(points, colours.trace, 0.35);

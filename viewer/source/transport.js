@@ -1,5 +1,17 @@
 // Playing, scrubbing, stepping.
-import {element} from './elements.js';
+import {element, svg} from './elements.js';
+
+// Drawn, since not every font has these signs.
+const kIcons = {
+  play: 'M4 2v12l10-6z',
+  pause: 'M3 2h4v12H3zM9 2h4v12H9z',
+  before: 'M3 2h2v12H3zM14 2v12L6 8z',
+  next: 'M11 2h2v12h-2zM2 2v12l8-6z',
+};
+
+function icon(name) {
+  return svg('svg', {viewBox: '0 0 16 16', class: 'icon', 'aria-hidden': 'true'}, svg('path', {d: kIcons[name]}));
+}
 
 const kSpeeds = [0.1, 0.25, 0.5, 1, 2, 5, 10];
 
@@ -11,16 +23,16 @@ export class Transport {
     this.onTime = onTime;
     this.time = 0;
     this.isPlaying = false;
-    this.playButton = element('button', {class: 'play', 'aria-label': 'Play', title: 'Play or pause (space)', onclick: () => this.toggle()}, '▶');
+    this.playButton = element('button', {class: 'play', 'aria-label': 'Play', title: 'Play or pause (space)', onclick: () => this.toggle()}, icon('play'));
     this.scrubber = element('input', {type: 'range', min: 0, max: duration || 1, step: 'any', value: 0, 'aria-label': 'Time in seconds'});
     this.scrubber.addEventListener('input', () => this.seek(Number(this.scrubber.value)));
     this.clock = element('output', {class: 'clock'});
     this.speed = element('select', {'aria-label': 'Speed'}, ...kSpeeds.map((speed) =>
       element('option', {value: speed, selected: speed === 1}, `${speed}×`)));
     this.root = element('div', {class: 'transport', role: 'group', 'aria-label': 'Playback'},
-      element('button', {'aria-label': 'Push before', title: 'Push before ([)', onclick: () => this.step(-1)}, '⏮'),
+      element('button', {'aria-label': 'Push before', title: 'Push before ([)', onclick: () => this.step(-1)}, icon('before')),
       this.playButton,
-      element('button', {'aria-label': 'Next push', title: 'Next push (])', onclick: () => this.step(1)}, '⏭'),
+      element('button', {'aria-label': 'Next push', title: 'Next push (])', onclick: () => this.step(1)}, icon('next')),
       this.scrubber, this.clock, this.speed);
   }
 
@@ -33,7 +45,7 @@ export class Transport {
 
   toggle() {
     this.isPlaying = !this.isPlaying && this.duration > 0;
-    this.playButton.textContent = this.isPlaying ? '⏸' : '▶';
+    this.playButton.replaceChildren(icon(this.isPlaying ? 'pause' : 'play'));
     this.playButton.setAttribute('aria-label', this.isPlaying ? 'Pause' : 'Play');
     if (!this.isPlaying) return;
     if (this.time >= this.duration) this.time = 0;

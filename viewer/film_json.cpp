@@ -291,8 +291,10 @@ std::string to_json(const Model& model, const Plan& plan, const Film& film) {
               {"pushes", Json::array()},
               {"phases", phases_json(film)},
               {"outcomes", Json::array()}};
-  for (const FilmPush& push : film.pushes)
-    out["pushes"].push_back(push_json(model, push));
+  const std::size_t stride = pad_stride(film);
+  for (const FilmPush& push : film.pushes) {
+    out["pushes"].push_back(push_json(model, push, stride));
+  }
   const std::size_t shown = std::min(film.outcomes.size(), kMostOutcomes);
   for (std::size_t i = 0; i < shown; ++i)
     out["outcomes"].push_back(grasp(film.outcomes[i]));

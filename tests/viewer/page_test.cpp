@@ -59,6 +59,25 @@ TEST(Page, StaysSmall) {
   EXPECT_LT(page("many", {data}).size(), kLargestPage);
 }
 
+/// Pads of many points, whose places change all the time.
+TEST(Page, StaysSmallWithManyPoints) {
+  Scene scene = testing::model_of("paper/pivot.yaml").scene;
+  scene.start.X_HO.x = 0.055;  // near the end: part of each pad overhangs
+  scene.gripper.pad = RectanglePad{{0.028, 0.04}};
+  FilmCase one{"clipped", prepare(scene, {.points_per_pad = 64}), {}, {}};
+  one.plan.start = one.plan.goal = scene.start;
+  one.plan.pushes.push_back(
+      {.push = Pivot{.place = -0.02, .turn = 0.4, .guard_distance = 1.0},
+       .start = scene.start,
+       .end = scene.start});
+  one.film = film(one.model, one.plan, {.is_plan = false});
+  ASSERT_GE(one.film.pushes[0].frames.size(), 30U)
+      << one.film.pushes[0].transition.reason;
+  EXPECT_GE(one.film.pushes[0].frames[0].loads.pad[0].size(), 30U);
+  const std::string data = to_json(one.model, one.plan, one.film);
+  EXPECT_LT(page("clipped", {data, data}).size(), kLargestPage);
+}
+
 TEST(Page, LoadsNothing) {
   const FilmCase& one = film_cases()[0];
   const std::string text = page("x", {to_json(one.model, one.plan, one.film)});

@@ -18,15 +18,17 @@ function restToRestInverse(s) {
   return 0.5 * (low + high);
 }
 
-/// Places of pads are written only where they change, forces of the second pad only where they
-/// are not those of the first.
-function fillPlaces(push) {
-  const last = [[], []];
+/// Pads are written at every frame or at every few, places only where they change, forces of the
+/// second pad only where they are not those of the first.
+function fillPads(push) {
+  const places = [[], []];
+  let last = null;
   for (const frame of push.frames) {
-    frame.pads.forEach((pad, jaw) => {
-      last[jaw] = pad.places ??= last[jaw];
+    frame.pads?.forEach((pad, jaw) => {
+      places[jaw] = pad.places ??= places[jaw];
       pad.forces ??= frame.pads[0].forces;
     });
+    last = frame.pads ??= last;
   }
 }
 
@@ -45,7 +47,7 @@ function frameBefore(frames, s) {
 export class Film {
   constructor(data) {
     this.data = data;
-    data.pushes.forEach(fillPlaces);
+    data.pushes.forEach(fillPads);
     this.duration = data.phases.length > 0 ? data.phases.at(-1).end : 0;
     this.mostForce = this.#mostForce();
     this.mostPressure = this.#mostPressure();

@@ -17,6 +17,8 @@ import {Traces} from './traces.js';
 const kZ = new Vector3(0, 0, 1);
 const kAxes = {x: new Vector3(1, 0, 0), y: new Vector3(0, 1, 0), z: new Vector3(0, 0, 1)};
 
+const kFieldOfView = 28;  // [deg]
+
 const kViews = {
   free: [0.3, 0.32, 1.68],
   front: [0, 0, 1.8],
@@ -47,7 +49,7 @@ export class Stage {
     this.reach = film.data.object.reach;
     this.renderer = new WebGLRenderer({canvas, antialias: true, preserveDrawingBuffer: true});
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
-    this.camera = new PerspectiveCamera(28, 1, 0.05 * this.reach, 100 * this.reach);
+    this.camera = new PerspectiveCamera(kFieldOfView, 1, 0.05 * this.reach, 100 * this.reach);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener('change', () => this.render());
     this.#rollAxis();
@@ -104,7 +106,8 @@ export class Stage {
     const {gripper} = this.film.data;
     this.thickPad = 0.06 * this.reach;
     this.jaws = [0, 1].map((jaw) => {
-      const [low, high] = jaw === 0 ? [-this.thickPad, 0] : [0, this.thickPad];
+      const gap = 0.003 * this.reach;  // two faces at one depth would flicker
+      const [low, high] = jaw === 0 ? [-this.thickPad, -gap] : [gap, this.thickPad];
       const pad = solid(prism(gripper.pad, low, high), this.colours.pad, 0.4, this.colours.ink);
       this.hand.add(pad);
       return pad;
@@ -153,11 +156,19 @@ export class Stage {
   }
 
   look(view) {
-    const [x, y, z] = kViews[view].map((value) => 3.3 * this.reach * value);
+    const [x, y, z] = kViews[view].map((value) => 3.3 * this.#seen() * value);
     this.controls.target.set(0, 0, 0);
     this.camera.position.set(x, y, z);
     this.controls.update();
     this.render();
+  }
+
+  /// How far the picture reaches: around the object, or, where nothing is pushed, all pushers.
+  #seen() {
+    const {pushes, pushers, start} = this.film.data;
+    if (pushes.length > 0) return this.reach;
+    const far = pushers.map(({p_WP}) => Math.hypot(p_WP[0] - start[0], p_WP[1] - start[1]));
+    return Math.max(this.reach, 0.75 * Math.max(...far));
   }
 
   resize() {
@@ -165,6 +176,9 @@ export class Stage {
     if (clientWidth === 0 || clientHeight === 0) return;
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
+    // In a narrow picture the width decides how much is seen.
+    const half = Math.tan((0.5 * kFieldOfView * Math.PI) / 180);
+    this.camera.fov = (360 / Math.PI) * Math.atan(half * Math.max(1, 1.4 / this.camera.aspect));
     this.camera.updateProjectionMatrix();
     this.render();
   }

@@ -12,8 +12,9 @@ export class PadMarks {
   constructor(parent, film, reach, colours) {
     this.film = film;
     this.reach = reach;
-    this.low = new Color(colours.pressureLow);
-    this.high = new Color(colours.pressureHigh);
+    // Mixed as the eye sees them, not as light adds up.
+    this.low = new Color(colours.pressureLow).convertLinearToSRGB();
+    this.high = new Color(colours.pressureHigh).convertLinearToSRGB();
     this.group = new Group();
     parent.add(this.group);
     this.size = this.#sizeOfPad();
@@ -67,7 +68,8 @@ export class PadMarks {
       if (side < 0) matrix.makeRotationX(Math.PI);
       matrix.setPosition(new Vector3(x, y, height));
       discs.setMatrixAt(i, matrix);
-      discs.setColorAt(i, this.low.clone().lerp(this.high, normal / most));
+      const share = Math.min(1, normal / most);
+      discs.setColorAt(i, this.low.clone().lerp(this.high, share).convertSRGBToLinear());
       const scale = (0.55 * this.size) / most;
       ends.push(x, y, height, x + scale * fx, y + scale * fy, height);
     }

@@ -59,13 +59,15 @@ Shown read(const Options& options, const std::string& file) {
 }
 
 int run(const Options& options) {
+  check_view_files(options.out);
   std::vector<Shown> shown;
   for (const std::string& file : options.files) shown.push_back(read(options, file));
   ViewFiles out = options.out;
-  if (out.page.empty() && out.frames.empty()) out.page = "view.html";
+  if (out.page.empty() && out.frames.empty() && out.glb.empty()) out.page = "view.html";
   const bool agrees = write_view(out, shown);
   if (!out.page.empty()) std::printf("page: %s\n", out.page.c_str());
   if (!out.frames.empty()) std::printf("key frames: %s\n", out.frames.c_str());
+  if (!out.glb.empty()) std::printf("animation: %s\n", out.glb.c_str());
   if (!agrees) std::printf("a replay does not agree with the plan: the page says why\n");
   return agrees ? kDone : kNegative;
 }
@@ -85,6 +87,8 @@ Command add_view(CLI::App& app) {
                      "page to write (HTML); view.html if nothing else is asked for");
   command.add_option("--frames", options->out.frames,
                      "also, or only: one picture per push of the first plan (SVG)");
+  command.add_option("--glb", options->out.glb,
+                     "also, or only: the first plan as an animation (GLB)");
   command
       .add_option("--samples", options->samples,
                   "show where so many members of the uncertainty end")
@@ -99,7 +103,7 @@ Command add_view(CLI::App& app) {
       "with the plan.\n"
       "Example:\n  prehensile view plan.json -o plan.html --samples 200\n"
       "  prehensile view a.json b.json -o compare.html\n"
-      "  prehensile view plan.json --frames plan.svg");
+      "  prehensile view plan.json --frames plan.svg --glb plan.glb");
   return [options] { return run(*options); };
 }
 

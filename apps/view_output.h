@@ -33,7 +33,11 @@ void check_view_option(const std::string& file);
 struct ViewFiles {
   std::string page;    ///< HTML
   std::string frames;  ///< SVG: key frames of the first plan
+  std::string glb;     ///< animated GLB of the first plan
 };
+
+/// Throws BadInput for files that this build cannot write: before any work.
+void check_view_files(const ViewFiles& files);
 
 /// Writes the files. False if a plan does not stand up to its replay.
 bool write_view(const ViewFiles& files, const std::vector<Shown>& shown);

@@ -58,6 +58,7 @@ std::vector<Room> rooms() {
       room("^assimp/", "^mesh/import\\.cpp$"),
       room("^polyclipping/", "^mesh/plane_regions\\.cpp$"),
       room("^tinyxml2\\.h$", "^mesh/urdf\\.cpp$"),
+      room("^tiny_gltf\\.h$", "^viewer/animation_glb\\.cpp$"),
       room("^zlib\\.h$", "^io/gzip\\.cpp$"),
       room("^(iostream|fstream)$", "^(mesh|io|apps)/.*"),
       room("^random$", "^$"),

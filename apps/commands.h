@@ -42,6 +42,7 @@ Command add_query_place(CLI::App& query);
 Command add_inspect(CLI::App& app);
 Command add_report(CLI::App& app);
 Command add_benchmark(CLI::App& app);
+Command add_view(CLI::App& app);
 Command add_mesh(CLI::App& app);  ///< not in builds without meshes
 
 }  // namespace prehensile::apps

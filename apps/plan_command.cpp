@@ -12,6 +12,7 @@
 #include "apps/progress_line.h"
 #include "apps/push_options.h"
 #include "apps/table.h"
+#include "apps/view_output.h"
 #include "io/plan_file.h"
 #include "io/scene_file.h"
 #include "planner/advice.h"
@@ -35,6 +36,7 @@ struct Options {
   PlannerChoice planner;
   ArmOptions arm;
   std::string output = "plan.json";
+  std::string view;
   double margin = 1.0;
   double progress_seconds = 1.0;
   bool nominal = false, robust = false, no_polish = false, no_advice = false;
@@ -73,6 +75,7 @@ Plan planned(const Options& options, const Model& model) {
 
 int run(const Options& options) {
   check_arm_files(options.arm);
+  check_view_option(options.view);
   const SceneFile file = read_scene(options.scene.file, options.scene.overrides);
   if (!file.scene.goal) {
     throw BadInput(options.scene.file + ": goal: missing: expected the wanted pose");
@@ -92,6 +95,8 @@ int run(const Options& options) {
   const std::string json = plan_to_json(written);
   write_atomically(options.output, json);
   const std::string arm = write_arm_files(options.arm, model, written);
+  if (!options.view.empty())
+    write_view({.page = options.view}, {{model, plan, true, {}}});
   if (options.scene.json) {
     std::fputs(json.c_str(), stdout);
     std::fputs(arm.c_str(), stderr);
@@ -99,6 +104,7 @@ int run(const Options& options) {
     std::fputs(describe(model, plan).c_str(), stdout);
     std::printf("plan file: %s\n", options.output.c_str());
     std::fputs(arm.c_str(), stdout);
+    if (!options.view.empty()) std::printf("page: %s\n", options.view.c_str());
   }
   const bool is_answer =
       plan.usable() && !(options.robust && plan.promise == Promise::kNominalOnly);
@@ -156,6 +162,7 @@ Command add_plan(CLI::App& app) {
   command.add_flag("--no-advice", options->no_advice,
                    "where there is no plan, do not look for changes that would help");
   add_arm_options(command, options->arm);
+  add_view_option(command, options->view);
   command.footer(
       "Where no plan survives the margin, a nominal one is looked for and marked as "
       "such.\n"

@@ -50,6 +50,7 @@ int run(int argc, char** argv) {
   const Command inspect = add_inspect(app);
   const Command report = add_report(app);
   const Command benchmark = add_benchmark(app);
+  const Command view = add_view(app);
   std::vector<std::pair<const CLI::App*, Command>> commands = {
       {app.get_subcommand("plan"), plan},
       {app.get_subcommand("check"), check},
@@ -63,7 +64,8 @@ int run(int argc, char** argv) {
       {query.get_subcommand("place"), place},
       {app.get_subcommand("inspect"), inspect},
       {app.get_subcommand("report"), report},
-      {app.get_subcommand("benchmark"), benchmark}};
+      {app.get_subcommand("benchmark"), benchmark},
+      {app.get_subcommand("view"), view}};
 #ifdef PREHENSILE_HAS_MESHES
   const Command mesh = add_mesh(app);
   commands.emplace_back(app.get_subcommand("mesh"), mesh);

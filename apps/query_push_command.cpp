@@ -12,7 +12,9 @@
 #include "apps/plan_report.h"
 #include "apps/push_options.h"
 #include "apps/table.h"
+#include "apps/view_output.h"
 #include "io/scene_file.h"
+#include "planner/plan.h"
 #include "primitives/transition.h"
 
 namespace prehensile::apps {
@@ -24,6 +26,7 @@ struct Options {
   PathOptions path;
   bool grip_range = false;
   double grip_tolerance_mm = 1.0;
+  std::string view;
 };
 
 /// What the pad plane does not have: forces of the jaws and how their pads press.
@@ -140,7 +143,17 @@ int run_grip_range(const Options& options, const Model& model, const Push& push)
   return range.found ? kDone : kNegative;
 }
 
+/// A plan of this push alone, which states nothing.
+Plan plan_of(const Grasp& start, const Push& push) {
+  Plan plan;
+  plan.start = plan.goal = start;
+  plan.margin = Margin::none();
+  plan.pushes.push_back({.push = push, .start = start, .end = start});
+  return plan;
+}
+
 int run(const Options& options) {
+  check_view_option(options.view);
   const SceneFile file = read_scene(options.scene.file, options.scene.overrides);
   const Model model = prepare(file.scene, {.points_per_pad = options.path.points});
   const int contact = chosen_contact(model, options.push);
@@ -150,6 +163,10 @@ int run(const Options& options) {
   const Transition transition =
       apply(model, chosen_grasp(model, options.push), push,
             {.tolerance = 1e-6 * options.path.tolerance_um}, &trace);
+  if (!options.view.empty()) {
+    const Plan shown = plan_of(chosen_grasp(model, options.push), push);
+    write_view({.page = options.view}, {{model, shown, false, {}}});
+  }
   if (options.scene.json) {
     std::printf("%s\n", to_json(transition, trace).dump(2).c_str());
   } else {
@@ -173,6 +190,7 @@ Command add_query_push(CLI::App& query) {
                   "how far from there it may end (--grip-range)")
       ->check(CLI::Range(1e-6, 1e3))
       ->capture_default_str();
+  add_view_option(command, options->view);
   command.footer(
       "Example:\n  prehensile query push problems/paper/slide.yaml --kind slide "
       "--travel-mm 15");

@@ -31,6 +31,13 @@ if(PREHENSILE_APPS AND PREHENSILE_SUITE)
   find_package(SQLite3 3.24 REQUIRED)
 endif()
 
+if(PREHENSILE_APPS AND PREHENSILE_VIEWER AND PREHENSILE_GLTF)
+  find_package(TinyGLTF QUIET)
+  if(NOT TinyGLTF_FOUND)
+    message(STATUS "No TinyGLTF: view --glb will refuse")
+  endif()
+endif()
+
 if(PREHENSILE_MESHES)
   find_package(assimp 5.2 REQUIRED)
   find_package(tinyxml2 REQUIRED)

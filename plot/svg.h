@@ -1,4 +1,4 @@
-/// SVG text, element by element. Internal to the plot layer.
+/// SVG text, element by element: for charts, and for pictures elsewhere.
 #pragma once
 
 #include <string>

@@ -12,6 +12,7 @@ packages=(
   libyaml-cpp-dev nlohmann-json3-dev libcli11-dev zlib1g-dev # files and command line
   libsqlite3-dev                                  # results of benchmark suites
   libassimp-dev libpolyclipping-dev libtinyxml2-dev # meshes of objects
+  libtinygltf-dev                                 # plans as animated GLB files
   libfccp-dev                                     # benchmarks only: tables of real pushes
   libgtest-dev libvalijson-dev                    # tests only
 )

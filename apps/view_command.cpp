@@ -1,0 +1,110 @@
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/commands.h"
+#include "apps/parallel.h"
+#include "apps/plan_samples.h"
+#include "apps/uncertainty_options.h"
+#include "apps/view_output.h"
+#include "io/plan_file.h"
+
+namespace prehensile::apps {
+namespace {
+
+struct Options {
+  std::vector<std::string> files;
+  ViewFiles out;
+  int samples = 0;
+  std::vector<std::string> vary;
+  std::uint64_t seed = 1;
+  int jobs = 0;
+};
+
+bool is_plan_file(const std::string& file) {
+  return std::filesystem::path(file).extension() == ".json";
+}
+
+/// Where the plan leaves the object in members of its uncertainty.
+std::vector<Grasp> sampled_ends(const Options& options, const Shown& shown) {
+  const auto& stated = shown.model.scene.uncertainty;
+  SampleOptions sampling;
+  sampling.box =
+      parse_box(options.vary, stated ? stated_box(shown.model.scene) : usual_box());
+  if (stated && options.vary.empty()) sampling.spread = stated->spread;
+  sampling.samples = options.samples;
+  sampling.seed = options.seed;
+  sampling.jobs = number_of_jobs(options.jobs);
+  std::vector<Grasp> ends;
+  for (const PlanTrial& trial : sample_plan(shown.model, shown.plan, sampling).trials) {
+    if (trial.is_scene) ends.push_back(trial.end);
+  }
+  return ends;
+}
+
+Shown read(const Options& options, const std::string& file) {
+  if (!is_plan_file(file)) {
+    const Scene scene = read_scene(file).scene;
+    Plan plan;
+    plan.start = plan.goal = scene.start;
+    return {prepare(scene), plan, false, {}};
+  }
+  const PlanFile read = read_plan(file);
+  Shown shown{prepare(read.scene), read.plan, true, {}};
+  const bool has_pushes = shown.plan.usable() && !shown.plan.pushes.empty();
+  if (options.samples > 0 && has_pushes) shown.outcomes = sampled_ends(options, shown);
+  return shown;
+}
+
+int run(const Options& options) {
+  check_view_files(options.out);
+  std::vector<Shown> shown;
+  for (const std::string& file : options.files) shown.push_back(read(options, file));
+  ViewFiles out = options.out;
+  if (out.page.empty() && out.frames.empty() && out.glb.empty()) out.page = "view.html";
+  const bool agrees = write_view(out, shown);
+  if (!out.page.empty()) std::printf("page: %s\n", out.page.c_str());
+  if (!out.frames.empty()) std::printf("key frames: %s\n", out.frames.c_str());
+  if (!out.glb.empty()) std::printf("animation: %s\n", out.glb.c_str());
+  if (!agrees) std::printf("a replay does not agree with the plan: the page says why\n");
+  return agrees ? kDone : kNegative;
+}
+
+}  // namespace
+
+Command add_view(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App& command = *app.add_subcommand(
+      "view", "write a page that shows a plan, two plans, or a scene");
+  command
+      .add_option("FILE", options->files,
+                  "plan file (.json) or scene file; two: side by side")
+      ->required()
+      ->expected(1, 2);
+  command.add_option("-o,--output", options->out.page,
+                     "page to write (HTML); view.html if nothing else is asked for");
+  command.add_option("--frames", options->out.frames,
+                     "also, or only: one picture per push of the first plan (SVG)");
+  command.add_option("--glb", options->out.glb,
+                     "also, or only: the first plan as an animation (GLB)");
+  command
+      .add_option("--samples", options->samples,
+                  "show where so many members of the uncertainty end")
+      ->check(CLI::Range(1, 10'000));
+  add_vary_option(command, options->vary);
+  command.add_option("--seed", options->seed, "of the samples")->capture_default_str();
+  command.add_option("--jobs", options->jobs, "threads for the samples; 0: one per core")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command.footer(
+      "The page needs no network and no other file. Exit code 1: a replay does not agree "
+      "with the plan.\n"
+      "Example:\n  prehensile view plan.json -o plan.html --samples 200\n"
+      "  prehensile view a.json b.json -o compare.html\n"
+      "  prehensile view plan.json --frames plan.svg --glb plan.glb");
+  return [options] { return run(*options); };
+}
+
+}  // namespace prehensile::apps

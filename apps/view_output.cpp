@@ -1,0 +1,47 @@
+#include "apps/view_output.h"
+
+#include <CLI/CLI.hpp>
+
+#include "io/plan_file.h"
+#include "viewer/animation_glb.h"
+#include "viewer/film_json.h"
+#include "viewer/key_frames.h"
+#include "viewer/page.h"
+
+namespace prehensile::apps {
+
+void add_view_option(CLI::App& command, std::string& file) {
+  command.add_option("--view", file, "also write a page to look at (HTML)");
+}
+
+void check_view_option(const std::string&) {}
+
+void check_view_files(const ViewFiles& files) {
+  if (files.glb.empty() || viewer::has_glb()) return;
+  throw BadInput("--glb " + files.glb +
+                 ": this build writes no GLB files: expected one with tinygltf");
+}
+
+bool write_view(const ViewFiles& files, const std::vector<Shown>& shown) {
+  bool all_agree = true;
+  std::vector<std::string> films;
+  std::string title;
+  for (const Shown& one : shown) {
+    viewer::Film film = viewer::film(one.model, one.plan, {.is_plan = one.is_plan});
+    film.outcomes = one.outcomes;
+    all_agree = all_agree && film.agrees;
+    title += (title.empty() ? "" : " | ") + one.model.scene.name;
+    films.push_back(viewer::to_json(one.model, one.plan, film));
+    if (&one != &shown.front()) continue;
+    if (!files.frames.empty()) {
+      write_atomically(files.frames, viewer::key_frames(one.model, film));
+    }
+    if (!files.glb.empty()) {
+      write_atomically(files.glb, viewer::animation_glb(one.model, film));
+    }
+  }
+  if (!files.page.empty()) write_atomically(files.page, viewer::page(title, films));
+  return all_agree;
+}
+
+}  // namespace prehensile::apps

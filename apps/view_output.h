@@ -1,0 +1,45 @@
+/// What is looked at: pages, pictures and exports of plans and pushes. Builds without the
+/// viewer refuse.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/scene_file.h"
+#include "planner/plan.h"
+
+namespace CLI {
+class App;
+}
+
+namespace prehensile::apps {
+
+/// One plan to show. `is_plan` false: a single push, or a scene alone, which states
+/// nothing that a replay could confirm.
+struct Shown {
+  Model model;
+  Plan plan;
+  bool is_plan = true;
+  std::vector<Grasp> outcomes;  ///< ends of sampled members of the uncertainty
+};
+
+/// --view FILE, of a command that makes a plan or a push.
+void add_view_option(CLI::App& command, std::string& file);
+
+/// Throws BadInput where `file` is set and this build has no viewer: before any work.
+void check_view_option(const std::string& file);
+
+/// Where the files go; empty: not written.
+struct ViewFiles {
+  std::string page;    ///< HTML
+  std::string frames;  ///< SVG: key frames of the first plan
+  std::string glb;     ///< animated GLB of the first plan
+};
+
+/// Throws BadInput for files that this build cannot write: before any work.
+void check_view_files(const ViewFiles& files);
+
+/// Writes the files. False if a plan does not stand up to its replay.
+bool write_view(const ViewFiles& files, const std::vector<Shown>& shown);
+
+}  // namespace prehensile::apps

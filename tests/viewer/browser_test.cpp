@@ -1,0 +1,144 @@
+/// Pages in a real browser, where there is one: no error, and something is drawn.
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <regex>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "tests/viewer/film_cases.h"
+#include "viewer/film_json.h"
+#include "viewer/page.h"
+
+namespace prehensile::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::film_cases;
+using testing::FilmCase;
+
+/// Everything that a command prints.
+std::string output_of(const std::string& command) {
+  struct Close {
+    void operator()(FILE* pipe) const { pclose(pipe); }
+  };
+  const std::unique_ptr<FILE, Close> pipe(popen(command.c_str(), "r"));
+  std::string out;
+  std::array<char, 4096> part{};
+  while (pipe) {
+    const std::size_t read = std::fread(part.data(), 1, part.size(), pipe.get());
+    if (read == 0) break;
+    out.append(part.data(), read);
+  }
+  return out;
+}
+
+std::string browser() {
+  for (const char* name : {"chromium", "chromium-browser", "google-chrome"}) {
+    const std::string found =
+        output_of("command -v " + std::string(name) + " 2>/dev/null");
+    if (!found.empty()) return found.substr(0, found.find('\n'));
+  }
+  return {};
+}
+
+class Folder {
+ public:
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "prehensile-XXXXXX").string();
+    path_ = mkdtemp(name.data());
+  }
+  ~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  fs::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  fs::path path_;
+};
+
+/// What a browser makes of a page: the document after its scripts ran, and its console.
+std::string opened(const std::string& program, const Folder& folder,
+                   const std::string& text, const std::string& moment) {
+  const fs::path file = folder / "page.html";
+  std::ofstream(file) << text;
+  return output_of(
+      "timeout 120 '" + program + "' --headless --no-sandbox --no-first-run " +
+      "--disable-background-networking --enable-unsafe-swiftshader " +
+      "--use-angle=swiftshader --virtual-time-budget=3000 --enable-logging=stderr " +
+      "--user-data-dir='" + (folder / "profile").string() + "' --dump-dom 'file://" +
+      file.string() + moment + "' 2>&1");
+}
+
+/// Opens a page at a moment and looks for anything that went wrong. Returns the
+/// milliseconds until the first frame.
+double expect_drawn(const std::string& program, const Folder& folder,
+                    const std::string& what, const std::string& text,
+                    const std::string& moment) {
+  const std::string out = opened(program, folder, text, moment);
+  EXPECT_EQ(out.find("data-error="), std::string::npos) << what;
+  EXPECT_EQ(out.find("CONSOLE"), std::string::npos)
+      << what << ": " << out.substr(out.find("CONSOLE"), 300);
+  EXPECT_EQ(out.find("class=\"failure\""), std::string::npos) << what << ": no WebGL";
+  std::smatch found;
+  const std::regex first("data-first-frame-ms=\"([0-9]+)\"");
+  EXPECT_TRUE(std::regex_search(out, found, first)) << what << ": nothing drawn";
+  return found.empty() ? kNan : std::stod(found[1]);
+}
+
+TEST(BrowserFull, OpensEveryKindOfPage) {
+  const std::string program = browser();
+  if (program.empty()) GTEST_SKIP() << "no chromium on this machine";
+  const Folder folder;
+  const auto json = [](const FilmCase& one) {
+    return to_json(one.model, one.plan, one.film);
+  };
+  double fastest = 1e9;
+  for (const FilmCase& one : film_cases()) {
+    for (const char* moment :
+         {"#push=1&share=0.5", "#push=1&share=1&frame=world&theme=dark&view=front"}) {
+      fastest = std::min(fastest, expect_drawn(program, folder, one.what,
+                                               page(one.what, {json(one)}), moment));
+    }
+  }
+  // Recorded, not judged: software rendering on a busy machine says little.
+  RecordProperty("first_frame_ms", static_cast<int>(fastest));
+  std::printf("first frame after %.0f ms at best\n", fastest);
+
+  const FilmCase& tee = film_cases()[7];
+  FilmCase sampled = tee;
+  sampled.film.outcomes.assign(300, tee.film.pushes.back().frames.back().grasp);
+  expect_drawn(program, folder, "two", page("two", {json(tee), json(sampled)}), "#t=2");
+
+  Plan refused;
+  refused.status = PlanStatus::kInfeasible;
+  refused.proof = {.kind = Proof::Kind::kNoPusher, .text = "nothing can touch it"};
+  refused.start = refused.goal = tee.model.scene.start;
+  const std::string text =
+      page("refused", {to_json(tee.model, refused, film(tee.model, refused))});
+  expect_drawn(program, folder, "refused", text, "");
+  EXPECT_NE(opened(program, folder, text, "").find("No plan: "), std::string::npos);
+}
+
+/// Nothing in a scene's words runs.
+TEST(BrowserFull, HostileWordsDoNotRun) {
+  const std::string program = browser();
+  if (program.empty()) GTEST_SKIP() << "no chromium on this machine";
+  const Folder folder;
+  FilmCase one = film_cases()[7];
+  const std::string words =
+      "</script><img src=x onerror=\"document.documentElement.dataset.error='ran'\">";
+  one.model.scene.name = one.model.scene.pushers[0].name = words;
+  expect_drawn(program, folder, "hostile",
+               page(words, {to_json(one.model, one.plan, one.film)}), "#t=1");
+}
+
+}  // namespace
+}  // namespace prehensile::viewer

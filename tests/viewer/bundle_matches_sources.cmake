@@ -1,0 +1,33 @@
+# The bundle that is kept with the sources was made of them: its first line holds their digest.
+# With the packages of viewer/package.json installed (npm ci), it is also made again and compared.
+file(GLOB sources ${VIEWER}/source/*.js)
+set(names)
+foreach(file ${sources})
+  get_filename_component(name ${file} NAME)
+  list(APPEND names ${name})
+endforeach()
+list(SORT names)
+list(TRANSFORM names PREPEND source/)
+set(digests "")
+foreach(name build.mjs package-lock.json ${names})
+  file(SHA256 ${VIEWER}/${name} digest)
+  string(APPEND digests ${digest})
+endforeach()
+string(SHA256 expected "${digests}")
+file(STRINGS ${VIEWER}/bundle/viewer.js first LIMIT_COUNT 1 LIMIT_INPUT 200)
+if(NOT first MATCHES "sources ${expected}")
+  message(FATAL_ERROR "viewer/bundle/viewer.js was not made of viewer/source: npm run build\n"
+    "  expected ${expected}\n  found ${first}")
+endif()
+
+find_program(NODE node)
+if(NODE AND EXISTS ${VIEWER}/node_modules/esbuild)
+  set(again ${CMAKE_CURRENT_BINARY_DIR}/viewer_again.js)
+  execute_process(COMMAND ${NODE} ${VIEWER}/build.mjs ${again} RESULT_VARIABLE failed)
+  execute_process(COMMAND ${CMAKE_COMMAND} -E compare_files ${again} ${VIEWER}/bundle/viewer.js
+    RESULT_VARIABLE differs)
+  file(REMOVE ${again})
+  if(failed OR differs)
+    message(FATAL_ERROR "viewer/bundle/viewer.js is not what its sources give")
+  endif()
+endif()

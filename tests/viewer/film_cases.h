@@ -1,0 +1,68 @@
+/// Films of shipped scenes: one of every kind of push.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/scene_file.h"
+#include "planner/planner.h"
+#include "viewer/film.h"
+
+namespace prehensile::testing {
+
+inline const std::filesystem::path kSourceTree = PREHENSILE_SOURCE_DIR;
+
+struct FilmCase {
+  std::string what;
+  Model model;
+  Plan plan;
+  viewer::Film film;
+};
+
+inline Model model_of(const std::string& file) {
+  return prepare(read_scene(kSourceTree / "problems" / file).scene);
+}
+
+inline FilmCase pushed(const std::string& file, const Push& push,
+                       const viewer::FilmOptions& options = {}) {
+  FilmCase one{file, model_of(file), {}, {}};
+  one.plan.start = one.plan.goal = one.model.scene.start;
+  one.plan.margin = Margin::none();
+  one.plan.pushes.push_back(
+      {.push = push, .start = one.plan.start, .end = one.plan.start});
+  one.film = viewer::film(one.model, one.plan, options);
+  return one;
+}
+
+inline FilmCase planned(const std::string& file) {
+  FilmCase one{file, model_of(file), {}, {}};
+  one.plan = plan_regrasp(one.model);
+  one.film = viewer::film(one.model, one.plan);
+  return one;
+}
+
+/// Pushes that stick, slip, tip over an end, roll, and one that is followed in space;
+/// plans with lines, and with a roll.
+inline const std::vector<FilmCase>& film_cases() {
+  static const std::vector<FilmCase> kCases = [] {
+    const Vec2 x(1.0, 0.0);
+    std::vector<FilmCase> cases;
+    cases.push_back(pushed("paper/slide.yaml", Slide{.e = x, .travel = 0.02}));
+    cases.push_back(
+        pushed("paper/slide.yaml", LinearPush{.e = rotated(0.9, x), .travel = 0.008}));
+    cases.push_back(
+        pushed("paper/slide.yaml", LinearPush{.place = 0.012, .e = x, .travel = 0.02}));
+    cases.push_back(pushed("paper/pivot.yaml", Pivot{.place = -0.03, .turn = 0.5}));
+    cases.push_back(pushed("paper/roll.yaml", Roll{.travel = 0.02, .grip_force = 1.0}));
+    cases.push_back(pushed("paper/roll_prism.yaml", Roll{.travel = 0.02}));
+    cases.push_back(pushed("tilted_hand.yaml", LinearPush{.e = x, .travel = 0.01}));
+    cases.push_back(planned("published/tee_21.yaml"));
+    cases.push_back(planned("ycb/can_franka.yaml"));
+    cases.push_back(planned("bracket.yaml"));
+    return cases;
+  }();
+  return kCases;
+}
+
+}  // namespace prehensile::testing

@@ -1,0 +1,155 @@
+#include "viewer/page.h"
+
+#include <regex>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/viewer/film_cases.h"
+#include "viewer/film_json.h"
+#include "viewer/key_frames.h"
+
+namespace prehensile::viewer {
+namespace {
+
+using nlohmann::json;
+using testing::film_cases;
+using testing::FilmCase;
+
+constexpr std::size_t kLargestPage = 1'000'000;  // bytes
+
+std::size_t count(const std::string& text, const std::string& what) {
+  std::size_t times = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos;
+       at = text.find(what, at + what.size())) {
+    ++times;
+  }
+  return times;
+}
+
+/// What a browser would read as the data of a page.
+json data_of(const std::string& page) {
+  const std::string begin = "<script type=\"application/json\" id=\"data\">";
+  const std::size_t at = page.find(begin) + begin.size();
+  return json::parse(page.substr(at, page.find("</script", at) - at));
+}
+
+TEST(Page, IsSmallAndHoldsItsData) {
+  for (const FilmCase& one : film_cases()) {
+    const std::string text = page(one.what, {to_json(one.model, one.plan, one.film)});
+    EXPECT_LT(text.size(), kLargestPage) << one.what;
+    const json data = data_of(text);
+    ASSERT_EQ(data.size(), 1U);
+    EXPECT_EQ(data[0].at("name"), one.model.scene.name);
+    EXPECT_EQ(data[0].at("pushes").size(), one.film.pushes.size());
+  }
+}
+
+/// A plan with a great many pushes.
+TEST(Page, StaysSmall) {
+  FilmCase one = film_cases()[0];
+  const PlannedPush push = one.plan.pushes[0];
+  Slide back = std::get<Slide>(push.push);
+  back.travel = 1e-6;
+  one.plan.pushes.assign(5000, {.push = back, .start = push.start, .end = push.start});
+  const Film many = film(one.model, one.plan);
+  EXPECT_GT(many.left_out, 0);
+  EXPECT_EQ(static_cast<int>(many.pushes.size()) + many.left_out, 5000);
+  const std::string data = to_json(one.model, one.plan, many);
+  EXPECT_LT(page("many", {data}).size(), kLargestPage);
+}
+
+/// Pads of many points, whose places change all the time.
+TEST(Page, StaysSmallWithManyPoints) {
+  Scene scene = testing::model_of("paper/pivot.yaml").scene;
+  scene.start.X_HO.x = 0.055;  // near the end: part of each pad overhangs
+  scene.gripper.pad = RectanglePad{{0.028, 0.04}};
+  FilmCase one{"clipped", prepare(scene, {.points_per_pad = 64}), {}, {}};
+  one.plan.start = one.plan.goal = scene.start;
+  one.plan.pushes.push_back(
+      {.push = Pivot{.place = -0.02, .turn = 0.4, .guard_distance = 1.0},
+       .start = scene.start,
+       .end = scene.start});
+  one.film = film(one.model, one.plan, {.is_plan = false});
+  ASSERT_GE(one.film.pushes[0].frames.size(), 30U)
+      << one.film.pushes[0].transition.reason;
+  EXPECT_GE(one.film.pushes[0].frames[0].loads.pad[0].size(), 30U);
+  const std::string data = to_json(one.model, one.plan, one.film);
+  EXPECT_LT(page("clipped", {data, data}).size(), kLargestPage);
+}
+
+TEST(Page, LoadsNothing) {
+  const FilmCase& one = film_cases()[0];
+  const std::string text = page("x", {to_json(one.model, one.plan, one.film)});
+  const std::regex address(R"((https?|wss?|ftp)://[^\s"'`)\\<]*)");
+  for (auto match = std::sregex_iterator(text.begin(), text.end(), address);
+       match != std::sregex_iterator(); ++match) {
+    const std::string found = match->str();
+    EXPECT_TRUE(found == "http://www.w3.org/1999/xhtml" ||
+                found == "http://www.w3.org/2000/svg")
+        << found;
+  }
+  EXPECT_NE(text.find("default-src 'none'"), std::string::npos);
+  EXPECT_EQ(text.find("<link"), std::string::npos);
+  EXPECT_EQ(text.find(" src="), std::string::npos);
+  EXPECT_NE(text.find("Copyright \xc2\xa9 2010-2026 three.js authors"),
+            std::string::npos);
+}
+
+/// Words of a scene file are words, whatever they spell.
+TEST(Page, HostileWordsStayWords) {
+  const std::vector<std::string> hostile = {"</script><script>alert(1)</script>",
+                                            "</SCRIPT ><img src=x onerror=alert(1)>",
+                                            "<!--<script>",
+                                            "<!--data--><!--script--><!--title-->",
+                                            "\"; alert(1); //",
+                                            "\xe2\x80\xa8 \xe2\x80\xa9 & ' \\ \\u003c",
+                                            "</title><svg onload=alert(1)>"};
+  const FilmCase& plain = film_cases()[7];
+  const std::string harmless = page("x", {to_json(plain.model, plain.plan, plain.film)});
+  for (const std::string& words : hostile) {
+    FilmCase one = plain;
+    one.model.scene.name = one.model.scene.origin = words;
+    one.model.scene.gripper.name = words;
+    one.model.scene.pushers[0].name = words;
+    one.plan.message = one.plan.proof.text = one.film.why = words;
+    one.plan.explanation = Explanation{words, {{.what = words, .option = words}}};
+    const std::string text = page(words, {to_json(one.model, one.plan, one.film)});
+    for (const char* markup :
+         {"<script", "</script", "<!--", "<img", "<svg", "</title"}) {
+      EXPECT_EQ(count(text, markup), count(harmless, markup)) << words << ": " << markup;
+    }
+    const json data = data_of(text);
+    EXPECT_EQ(data[0].at("name"), words);
+    EXPECT_EQ(data[0].at("pushers")[0].at("name"), words);
+    EXPECT_EQ(data[0].at("verdict").at("explanation"), words);
+    const std::string picture = key_frames(one.model, one.film);
+    for (const char* markup : {"<script", "<img", "onload=alert(1)>", "<!--"}) {
+      EXPECT_EQ(count(picture, markup), 0U) << words << ": " << markup;
+    }
+  }
+}
+
+TEST(Page, ARefusalSaysWhy) {
+  const Model model = testing::model_of("paper/slide.yaml");
+  Plan plan;
+  plan.status = PlanStatus::kInfeasible;
+  plan.proof = {.kind = Proof::Kind::kNoPusher, .text = "nothing can touch it"};
+  const json data = data_of(page("x", {to_json(model, plan, film(model, plan))}));
+  EXPECT_EQ(data[0].at("verdict").at("usable"), false);
+  EXPECT_EQ(data[0].at("verdict").at("proof"), "nothing can touch it");
+  EXPECT_TRUE(data[0].at("pushes").empty());
+}
+
+TEST(KeyFrames, OnePicturePerPush) {
+  for (const FilmCase& one : film_cases()) {
+    const std::string picture = key_frames(one.model, one.film);
+    EXPECT_EQ(count(picture, "<clipPath"), one.film.pushes.size()) << one.what;
+    EXPECT_EQ(count(picture, "<g "), count(picture, "</g>"));
+    EXPECT_EQ(picture.find("nan"), std::string::npos) << one.what;
+    EXPECT_LT(picture.size(), 400'000U);
+  }
+}
+
+}  // namespace
+}  // namespace prehensile::viewer

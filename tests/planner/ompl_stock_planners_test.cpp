@@ -62,7 +62,7 @@ void expect_directed(int scenes, std::int64_t budget, std::uint64_t seeds) {
   }
 }
 
-TEST(OmplStockPlanners, EveryPushIsDoneInItsDirection) { expect_directed(6, 1500, 1); }
+TEST(OmplStockPlanners, EveryPushIsDoneInItsDirection) { expect_directed(4, 600, 1); }
 
 TEST(OmplStockPlanners, FullEveryPushIsDoneInItsDirection) {
   expect_directed(40, 10'000, 2);

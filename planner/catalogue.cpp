@@ -164,10 +164,10 @@ bool improves(const std::string& algorithm) {
 std::vector<PlannerKind> all_kinds() {
   std::vector<PlannerKind> kinds = own();
   const auto add = [&kinds](const char* prefix, PlannerFamily family,
-                            std::vector<std::pair<std::string, Options>> of_family) {
-    for (auto& [algorithm, options] : of_family) {
-      kinds.push_back({prefix + algorithm, family, algorithm, std::move(options),
-                       improves(algorithm)});
+                            const std::vector<std::pair<std::string, Options>>& all) {
+    for (const auto& [algorithm, options] : all) {
+      kinds.push_back(
+          {prefix + algorithm, family, algorithm, options, improves(algorithm)});
     }
   };
   add("geometric::", PlannerFamily::kGeometric, geometric());

@@ -204,6 +204,7 @@ void tune(const std::string& planner, const Options& options, std::vector<Run>& 
       if (draw > 0) settings[option.name] = drawn_value(option, random);
     }
     std::vector<Run> runs;
+    runs.reserve(problems.size());
     for (const Problem& problem : problems) {
       runs.push_back(run_planner(problem, plan_options(options, planner, 1, settings),
                                  options.plans == "robust"));

@@ -1,12 +1,13 @@
-/// Success, time and cost of the planners, one CSV line per run, failures included.
+/// Success, time and cost of the planners that steer, one CSV line per run, failures
+/// included.
 ///
 /// Sets: `published`, 50 regrasps each of a square and a T; `ranges`, random ones from
 /// the same ranges, and `wide`, any start and goal at any angle, with and without
 /// gravity; `constructed`, 100 each of boxes, Ts and cans, feasible by construction. Our
 /// own planner runs with its default budget, once per problem: it draws no random
-/// numbers. OMPL's run with a time limit, once per seed. `search_s` is the search alone,
-/// `total_s` all of plan_regrasp: proofs, search, polish, exact check, bound. A run
-/// counts as solved if its plan replays.
+/// numbers. The others run with a time limit, once per seed. `search_s` is the search
+/// alone, `total_s` all of plan_regrasp: proofs, search, polish, exact check, bound. A
+/// run counts as solved if its plan replays.
 /// `--help` shows the options.
 #include <cstdio>
 #include <set>
@@ -16,6 +17,7 @@
 #include "benchmarks/csv_file.h"
 #include "benchmarks/measure.h"
 #include "benchmarks/options.h"
+#include "planner/baselines.h"
 #include "planner/frame.h"
 #include "planner/push_search.h"
 #include "planner/replay.h"
@@ -28,7 +30,7 @@ namespace {
 
 struct Options {
   std::string set = "published";
-  std::string planner;  // empty: all
+  std::string planner;  // empty: all that steer
   int problems = 0;     // of each kind; 0: all
   int seeds = 3;
   int time_ms = 1000;
@@ -113,6 +115,8 @@ void search_only(const SearchModel& search, const PlanOptions& options) {
   Work work{.budget = options.budget};
   if (is_own(options.planner)) {
     search_pushes(search, scene.start, *scene.goal, options, work);
+  } else if (!find_planner(options.planner)->needs_ompl()) {
+    search_by_baseline(search, scene.start, *scene.goal, options, work);
   } else {
     solve_in_frame(search, scene.start, *scene.goal, options, work);
   }
@@ -180,7 +184,7 @@ Interval wilson(int hits, int runs) {
 /// One line per kind of problem and planner; costs and gaps over its solved runs.
 void write_summary(const std::set<std::pair<std::string, std::string>>& groups,
                    const std::vector<Run>& runs, std::FILE* out) {
-  std::fprintf(out, "%-16s%-12s%6s%8s%16s%12s%10s%10s%11s%8s%8s%8s%10s%11s\n", "kind",
+  std::fprintf(out, "%-16s%-28s%6s%8s%16s%12s%10s%10s%11s%8s%8s%8s%10s%11s\n", "kind",
                "planner", "runs", "solved", "95 %", "search med", "p99 ms", "worst ms",
                "total med", "S med", "J med", "gap med", "gap<=10%", "published");
   for (const auto& [kind, planner] : groups) {
@@ -202,7 +206,7 @@ void write_summary(const std::set<std::pair<std::string, std::string>>& groups,
     const int solved = static_cast<int>(cost.size());
     const Interval interval = wilson(solved, count);
     std::fprintf(out,
-                 "%-16s%-12s%6d%8d%8.1f-%5.1f %%%9.4f ms%10.3f%10.3f%8.2f ms%8.0f%8.3f"
+                 "%-16s%-28s%6d%8d%8.1f-%5.1f %%%9.4f ms%10.3f%10.3f%8.2f ms%8.0f%8.3f"
                  "%7.1f %%%8.1f %%%11.2f\n",
                  kind.c_str(), planner.c_str(), count, solved, 100.0 * interval.low,
                  100.0 * interval.high, quantile(search, 0.5), quantile(search, 0.99),
@@ -224,16 +228,18 @@ bool read_options(int count, char** arguments, Options& options) {
                       [&options] {
                         options.problems = 3;
                         options.seeds = 1;
-                        options.time_ms = 200;
+                        options.time_ms = 50;
                       }) &&
          is_set(options.set) && (options.plans == "robust" || options.plans == "nominal");
 }
 
 std::vector<std::string> wanted_planners(const Options& options) {
   std::vector<std::string> planners = planner_names();
-  if (!options.planner.empty()) {
-    std::erase_if(planners, [&](const std::string& p) { return p != options.planner; });
-  }
+  std::erase_if(planners, [&](const std::string& planner) {
+    // Blind controls are a matter of bench_baselines.
+    return options.planner.empty() ? planner.starts_with("blind::")
+                                   : planner != options.planner;
+  });
   return planners;
 }
 

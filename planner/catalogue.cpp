@@ -122,7 +122,9 @@ std::vector<std::pair<std::string, Options>> geometric() {
         rewire_factor(1.0), yes_or_no("use_k_nearest", true, "or all within a radius")}},
       {"FMT",
        {count("num_samples", 100'000.0, 1000.0, "states drawn at once"),
-        {"radius_multiplier", 0.1, 10.0, 1.1, "on the size of neighbourhoods"},
+        // With a third of this OMPL 1.5.2 runs into a node without neighbours and
+        // crashes.
+        {"radius_multiplier", 0.8, 10.0, 1.1, "on the size of neighbourhoods"},
         yes_or_no("heuristics", false, "order by the cost to go as well"),
         yes_or_no("extended_fmt", true, "draw more where these do not suffice")}},
       {"EST", {range(0.33), goal_bias(0.65)}},
@@ -162,10 +164,10 @@ bool improves(const std::string& algorithm) {
 std::vector<PlannerKind> all_kinds() {
   std::vector<PlannerKind> kinds = own();
   const auto add = [&kinds](const char* prefix, PlannerFamily family,
-                            std::vector<std::pair<std::string, Options>> of_family) {
-    for (auto& [algorithm, options] : of_family) {
-      kinds.push_back({prefix + algorithm, family, algorithm, std::move(options),
-                       improves(algorithm)});
+                            const std::vector<std::pair<std::string, Options>>& all) {
+    for (const auto& [algorithm, options] : all) {
+      kinds.push_back(
+          {prefix + algorithm, family, algorithm, options, improves(algorithm)});
     }
   };
   add("geometric::", PlannerFamily::kGeometric, geometric());

@@ -63,9 +63,10 @@ TEST(OmplDeterminism, SameSeedSamePlanInOneProcess) {
 TEST(OmplDeterminism, SeedsMatterToRandomPlannersOnly) {
   for (const std::string& planner : frame_planners()) {
     if (planner.starts_with("blind::")) continue;  // find nothing with so little work
+    const std::int64_t budget = planner == "geometric::FMT" ? 6000 : 1500;
     std::set<std::uint64_t> plans;
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-      plans.insert(fingerprint(planner, seed, 3000));
+      plans.insert(fingerprint(planner, seed, budget));
     }
     EXPECT_EQ(plans.size() == 1, planner == "push") << planner;
   }

@@ -33,8 +33,10 @@ std::vector<Scene> random_scenes(int count) {
 }
 
 /// The law of every planner here: no plan has a push that must be done backwards.
-void expect_directed(int scenes, std::int64_t budget, std::uint64_t seeds) {
+void expect_directed(int scenes, std::int64_t least, std::uint64_t seeds) {
   for (const PlannerKind& kind : stock_kinds()) {
+    // FMT* draws all its states before its first push.
+    const std::int64_t budget = kind.algorithm == "FMT" ? 10 * least : least;
     testing::Directions directions;
     int solved = 0;
     for (const Scene& scene : random_scenes(scenes)) {
@@ -62,7 +64,7 @@ void expect_directed(int scenes, std::int64_t budget, std::uint64_t seeds) {
   }
 }
 
-TEST(OmplStockPlanners, EveryPushIsDoneInItsDirection) { expect_directed(6, 1500, 1); }
+TEST(OmplStockPlanners, EveryPushIsDoneInItsDirection) { expect_directed(4, 600, 1); }
 
 TEST(OmplStockPlanners, FullEveryPushIsDoneInItsDirection) {
   expect_directed(40, 10'000, 2);

@@ -91,13 +91,15 @@ bool plan_with_real_pads(const SearchModel& search, const FlatState& from,
 /// of the best one that does not.
 constexpr double kWorthTolerance = 0.9;
 
-/// One straight push to a place beside the goal, or two by way of a crossing of cone
-/// lines.
+/// Over whole discs only, where the search knows the pads: elsewhere plans to the goal
+/// itself fail their exact check often enough. One straight push to a place beside the
+/// goal, or two by way of a crossing of cone lines.
 std::optional<std::vector<Move>> search_within_tolerance(const SearchModel& search,
                                                          const FlatState& from,
                                                          const Goal& goal,
                                                          const Limits& limits,
                                                          Work& work) {
+  if (!search.exact_everywhere) return std::nullopt;
   const GoalPlaces places = tolerated_places(*search.model, goal, from);
   if (const auto move = direct_push(search, from, places, work)) {
     return std::vector{*move};

@@ -89,7 +89,11 @@ bool passes(const Model& model, const PlanOptions& options, Plan& plan) {
     return false;
   }
   account(model, plan);
-  plan.lower_bound = lower_bound(model, model.scene.start, *model.scene.goal);
+  const LowerBound bound =
+      lower_bound(model, model.scene.start, *model.scene.goal, plan.cost);
+  plan.lower_bound = bound.value;
+  plan.bound_is_trivial = bound.is_trivial;
+  plan.bound_nodes = bound.nodes;
   return replay(model, plan).agrees;
 }
 

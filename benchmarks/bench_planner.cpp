@@ -18,6 +18,7 @@
 #include "benchmarks/measure.h"
 #include "benchmarks/options.h"
 #include "planner/baselines.h"
+#include "planner/bounds.h"
 #include "planner/frame.h"
 #include "planner/push_search.h"
 #include "planner/replay.h"
@@ -49,6 +50,7 @@ struct Run {
   Plan plan;
   bool replays = false;
   double search_seconds = kNan;
+  double bound_seconds = kNan;
 };
 
 constexpr int kConstructed = 100;
@@ -138,6 +140,11 @@ Run run_planner(const Problem& problem, const std::string& planner, std::uint64_
   run.search_seconds = 1e-6 * time_us([&] { search_only(search, wanted); }, batches);
   run.plan = plan_regrasp(model, wanted);
   run.replays = run.plan.usable() && replay(model, run.plan).agrees;
+  if (run.plan.usable()) {
+    run.bound_seconds =
+        1e-6 *
+        time_us([&] { lower_bound(model, scene.start, *scene.goal, run.plan.cost); }, 1);
+  }
   return run;
 }
 
@@ -145,8 +152,8 @@ void write_csv(const Options& options, const std::vector<Run>& runs, std::FILE* 
   std::fputs(
       "set,kind,problem,planner,seed,status,certified,replays,search_s,total_s,stick_"
       "tests,"
-      "propagations,pushes,placements,travel,cost,bound,published_cost,time_limit_s,"
-      "compiler,cpu\n",
+      "propagations,pushes,placements,travel,cost,bound,gap,bound_is_trivial,bound_nodes,"
+      "bound_s,published_cost,time_limit_s,compiler,cpu\n",
       out);
   const std::string compiler = field(compiler_name());
   const std::string cpu = field(cpu_name());
@@ -154,16 +161,18 @@ void write_csv(const Options& options, const std::vector<Run>& runs, std::FILE* 
     const Plan& plan = run.plan;
     std::fprintf(out,
                  "%s,%s,%s,%s,%llu,%s,%d,%d,%.4g,%.4g,%lld,%lld,%zu,%.0f,%.6g,%.6g,%.6g,"
-                 "%.3g,%.4g,%s,%s\n",
+                 "%.4g,%d,%lld,%.4g,%.3g,%.4g,%s,%s\n",
                  options.set.c_str(), field(run.kind).c_str(), field(run.problem).c_str(),
                  run.planner.c_str(), static_cast<unsigned long long>(run.seed),
                  name(plan.status).data(), plan.usable() ? 1 : 0, run.replays ? 1 : 0,
                  run.search_seconds, plan.seconds,
                  static_cast<long long>(plan.stick_tests),
                  static_cast<long long>(plan.propagations), plan.pushes.size(),
-                 plan.placements, plan.travel, plan.cost, plan.lower_bound,
-                 plan.published_cost, is_own(run.planner) ? 0.0 : 1e-3 * options.time_ms,
-                 compiler.c_str(), cpu.c_str());
+                 plan.placements, plan.travel, plan.cost, plan.lower_bound, plan.gap(),
+                 plan.bound_is_trivial ? 1 : 0, static_cast<long long>(plan.bound_nodes),
+                 run.bound_seconds, plan.published_cost,
+                 is_own(run.planner) ? 0.0 : 1e-3 * options.time_ms, compiler.c_str(),
+                 cpu.c_str());
   }
 }
 
@@ -184,12 +193,13 @@ Interval wilson(int hits, int runs) {
 /// One line per kind of problem and planner; costs and gaps over its solved runs.
 void write_summary(const std::set<std::pair<std::string, std::string>>& groups,
                    const std::vector<Run>& runs, std::FILE* out) {
-  std::fprintf(out, "%-16s%-28s%6s%8s%16s%12s%10s%10s%11s%8s%8s%8s%10s%11s\n", "kind",
-               "planner", "runs", "solved", "95 %", "search med", "p99 ms", "worst ms",
-               "total med", "S med", "J med", "gap med", "gap<=10%", "published");
+  std::fprintf(out, "%-16s%-28s%6s%8s%16s%12s%10s%10s%11s%8s%8s%8s%10s%10s%14s%11s\n",
+               "kind", "planner", "runs", "solved", "95 %", "search med", "p99 ms",
+               "worst ms", "total med", "S med", "J med", "gap med", "gap<=10%",
+               "trivial", "bound p99 ms", "published");
   for (const auto& [kind, planner] : groups) {
-    std::vector<double> search, total, placements, cost, gap, published;
-    int count = 0, near_bound = 0;
+    std::vector<double> search, total, placements, cost, gap, published, bound;
+    int count = 0, near_bound = 0, trivial = 0;
     for (const Run& run : runs) {
       if (run.planner != planner || run.kind != kind) continue;
       ++count;
@@ -200,6 +210,8 @@ void write_summary(const std::set<std::pair<std::string, std::string>>& groups,
       cost.push_back(run.plan.cost);
       gap.push_back(run.plan.gap());
       if (gap.back() <= 0.1) ++near_bound;
+      if (run.plan.bound_is_trivial) ++trivial;
+      bound.push_back(1e3 * run.bound_seconds);
       published.push_back(run.plan.published_cost);
     }
     if (count == 0) continue;
@@ -207,12 +219,13 @@ void write_summary(const std::set<std::pair<std::string, std::string>>& groups,
     const Interval interval = wilson(solved, count);
     std::fprintf(out,
                  "%-16s%-28s%6d%8d%8.1f-%5.1f %%%9.4f ms%10.3f%10.3f%8.2f ms%8.0f%8.3f"
-                 "%7.1f %%%8.1f %%%11.2f\n",
+                 "%7.1f %%%8.1f %%%8.1f %%%14.2f%11.2f\n",
                  kind.c_str(), planner.c_str(), count, solved, 100.0 * interval.low,
                  100.0 * interval.high, quantile(search, 0.5), quantile(search, 0.99),
                  quantile(search, 1.0), quantile(total, 0.5), quantile(placements, 0.5),
                  quantile(cost, 0.5), 100.0 * quantile(gap, 0.5),
-                 100.0 * near_bound / count, quantile(published, 0.5));
+                 100.0 * near_bound / count, 100.0 * trivial / count,
+                 quantile(bound, 0.99), quantile(published, 0.5));
   }
 }
 

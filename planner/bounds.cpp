@@ -176,8 +176,8 @@ double roll_cost(const Model& model, const Grasp& start, const Goal& goal) {
   return roll > 0.0 ? 1.0 + roll / model.L : 0.0;
 }
 
-/// The gap that most users ask for; see lower_bound.
-constexpr double kGapAsked = 1.1;
+/// A gap of 10 %, and a little less, so that rounding does not make it more.
+constexpr double kGapAsked = 1.0999;
 
 /// Relative rounding that a claimed bound is granted.
 constexpr double kAcceptance = 1e-6;
@@ -236,13 +236,14 @@ LowerBound lower_bound(const Model& model, const Grasp& start, const Goal& goal,
     if (!(bound.value < target) || bound.nodes >= nodes) break;
     std::int64_t left = nodes - bound.nodes;
     double proved = prove(model, start, goal, target, left);
-    if (proved < target) proved -= kToProveAgain * target;
+    const bool done = proved >= target * (1.0 - kAcceptance);
+    if (!done) proved -= kToProveAgain * target;
     bound.nodes = nodes - left;
     if (proved > bound.value + kAccuracy) {
       bound.is_trivial = false;
       bound.value = proved;
     }
-    if (proved < target) break;
+    if (!done) break;
   }
   return bound;
 }

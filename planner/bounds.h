@@ -21,7 +21,7 @@ double trivial_bound(const Model& model, const Grasp& start, const Goal& goal);
 double guide_bound(const Model& model, const Grasp& start, const Goal& goal);
 
 /// Work of the bounds below: boxes of switch points looked at, about a microsecond each.
-inline constexpr std::int64_t kBoundNodes = 8000;
+inline constexpr std::int64_t kBoundNodes = 6000;
 
 struct LowerBound {
   double value = kNan;

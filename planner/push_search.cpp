@@ -41,14 +41,21 @@ std::optional<Move> best_contact(const SearchModel& search, const FlatState& fro
   return best;
 }
 
-void append_chain(const SearchModel& search, const FlatState& start, const Chain& chain,
-                  Plan& plan) {
+std::vector<Move> moves_of(const SearchModel& search, const FlatState& start,
+                           const Chain& chain) {
+  std::vector<Move> moves;
+  moves.reserve(static_cast<std::size_t>(chain.count));
   double theta = start.theta;
   for (int k = 0; k < chain.count; ++k) {
-    const Move move = move_of(search, chain, k, theta);
-    append_move(search, move, plan);
-    theta = move.to.theta;
+    moves.push_back(move_of(search, chain, k, theta));
+    theta = moves.back().to.theta;
   }
+  return moves;
+}
+
+void append_chain(const SearchModel& search, const FlatState& start, const Chain& chain,
+                  Plan& plan) {
+  for (const Move& move : moves_of(search, start, chain)) append_move(search, move, plan);
 }
 
 /// The stages that know the pads themselves: they cost more, and find what the ellipsoid
@@ -87,16 +94,22 @@ bool plan_with_real_pads(const SearchModel& search, const FlatState& from,
 /// of the best one that does not.
 constexpr double kWorthTolerance = 0.9;
 
-/// One straight push to a place beside the goal that is much cheaper than the plan found.
-std::optional<Move> push_within_tolerance(const SearchModel& search,
-                                          const FlatState& from, const Goal& goal,
-                                          const std::optional<FoundChain>& found,
-                                          Work& work) {
-  const auto move =
-      direct_push(search, from, tolerated_places(*search.model, goal, from), work);
-  if (!move || !found) return move;
-  const double cost = cost_of(search, {*move});
-  return cost < kWorthTolerance * found->chain.cost ? move : std::nullopt;
+/// Over whole discs only, where the search knows the pads: elsewhere plans to the goal
+/// itself fail their exact check often enough. One straight push to a place beside the
+/// goal, or two by way of a crossing of cone lines.
+std::optional<std::vector<Move>> search_within_tolerance(const SearchModel& search,
+                                                         const FlatState& from,
+                                                         const Goal& goal,
+                                                         const Limits& limits,
+                                                         Work& work) {
+  if (!search.exact_everywhere) return std::nullopt;
+  const GoalPlaces places = tolerated_places(*search.model, goal, from);
+  if (const auto move = direct_push(search, from, places, work)) {
+    return std::vector{*move};
+  }
+  const auto found = search_crossings(search, from, places, limits, work);
+  if (!found) return std::nullopt;
+  return moves_of(search, from, found->chain);
 }
 
 /// Fills the pushes in the pad plane; false if none were found.
@@ -111,9 +124,12 @@ bool plan_in_plane(const SearchModel& search, const Grasp& start, const Goal& go
   const double bound = guide_bound(*search.model, start, goal);
   if (work.meter) work.meter->bound(trivial_bound(*search.model, start, goal));
   const auto found = search_chains(search, from, goals, bound, limits, work);
-  if (const auto move = push_within_tolerance(search, from, goal, found, work)) {
-    append_move(search, *move, plan);
-    return true;
+  if (const auto near = search_within_tolerance(search, from, goal, limits, work)) {
+    const double to_beat = found ? kWorthTolerance * found->chain.cost : kInfinity;
+    if (cost_of(search, *near) < to_beat) {
+      for (const Move& move : *near) append_move(search, move, plan);
+      return true;
+    }
   }
   if (found && !(limits.improves() && found->chain.cost > kGoodEnough * bound)) {
     append_chain(search, from, found->chain, plan);

@@ -22,7 +22,7 @@ start() {
   mkdir -p "$R/munge" "$R/state" "$R/log" "$R/spool-a" "$R/spool-b"
   chmod 711 "$R/munge"
   (umask 077 && head -c 128 /dev/urandom >"$R/munge/key")
-  munged --key-file="$R/munge/key" --socket="$R/munge/sock" --pid-file="$R/munge/pid" \
+  munged --force --key-file="$R/munge/key" --socket="$R/munge/sock" --pid-file="$R/munge/pid" \
     --log-file="$R/munge/log" --seed-file="$R/munge/seed"
   cat >"$R/cgroup.conf" <<CGROUP
 CgroupPlugin=cgroup/v1

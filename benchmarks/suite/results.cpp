@@ -82,6 +82,13 @@ std::string settings_of(const PlannerEntry& entry) {
   return text;
 }
 
+/// [s] that the programs which wrote a file ran.
+double total_time(const fs::path& file) {
+  Database database(file, Database::Open::kRead);
+  Statement spent(database, "SELECT max(totaltime) FROM experiments");
+  return spent.step() ? spent.real(0) : 0.0;
+}
+
 /// What two answers to one run must share.
 bool agree(const RunRecord& a, const RunRecord& b) {
   std::string text_a, text_b;
@@ -249,10 +256,12 @@ Merged merge_results(const std::vector<fs::path>& files, const fs::path& output)
     throw BadInput(output.string() + ": exists: expected a new file");
   }
   Merged merged;
+  double spent = 0.0;
   std::map<RunKey, RunRecord> rows;
   Results header;
   for (const fs::path& file : files) {
     Results part = read_results(file);
+    spent += total_time(file);
     if (merged.files > 0 && part.provenance.digest() != header.provenance.digest()) {
       throw BadInput(file.string() +
                      ": holds results of another suite, version or build "
@@ -280,7 +289,7 @@ Merged merge_results(const std::vector<fs::path>& files, const fs::path& output)
   try {
     ResultsWriter writer(temporary, header, false);
     for (auto& [key, record] : rows) writer.add({key, std::move(record)});
-    writer.close(0.0);
+    writer.close(spent);
     fs::rename(temporary, output);
   } catch (...) {
     std::error_code ignored;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 namespace prehensile::suite {
@@ -39,7 +40,11 @@ struct RunKey {
   int seed = 1;
   int repetition = 1;
 
-  friend auto operator<=>(const RunKey&, const RunKey&) = default;
+  friend bool operator==(const RunKey&, const RunKey&) = default;
+  friend bool operator<(const RunKey& a, const RunKey& b) {
+    return std::tie(a.family, a.problem, a.planner, a.seed, a.repetition) <
+           std::tie(b.family, b.problem, b.planner, b.seed, b.repetition);
+  }
 };
 
 /// The best known at a time of the search.

@@ -172,6 +172,7 @@ std::vector<Comparison> compare_results(const Results& a, const Results& b) {
     pairs[{row.key.planner, -1}].add(row.record, *found->second);
   }
   std::vector<Comparison> comparisons;
+  comparisons.reserve(pairs.size());
   for (const auto& [key, members] : pairs) {
     comparisons.push_back(members.result(key.second, key.first, key.first));
   }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "benchmarks/suite/results.h"
@@ -44,7 +45,9 @@ struct GroupSummary {
 struct ProblemKey {
   int family = 0;
   int problem = 0;
-  friend auto operator<=>(const ProblemKey&, const ProblemKey&) = default;
+  friend bool operator<(const ProblemKey& a, const ProblemKey& b) {
+    return std::tie(a.family, a.problem) < std::tie(b.family, b.problem);
+  }
 };
 
 struct Summary {

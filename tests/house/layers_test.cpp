@@ -59,6 +59,7 @@ std::vector<Room> rooms() {
       room("^polyclipping/", "^mesh/plane_regions\\.cpp$"),
       room("^tinyxml2\\.h$", "^mesh/urdf\\.cpp$"),
       room("^tiny_gltf\\.h$", "^viewer/animation_glb\\.cpp$"),
+      room("^sqlite3\\.h$", "^$"),
       room("^zlib\\.h$", "^io/gzip\\.cpp$"),
       room("^(iostream|fstream)$", "^(mesh|io|apps)/.*"),
       room("^random$", "^$"),
@@ -114,6 +115,18 @@ TEST(Layers, ThirdPartiesStayInTheirRooms) {
           << include.file << ':' << include.line << " includes " << include.what;
     }
   }
+}
+
+TEST(Layers, SuitesNameTheirDatabaseInOneFile) {
+  int found = 0;
+  for (const auto& entry : fs::directory_iterator(kRoot / "benchmarks" / "suite")) {
+    std::ifstream in(entry.path());
+    const std::string text((std::istreambuf_iterator<char>(in)), {});
+    if (text.find("#include <sqlite3.h>") == std::string::npos) continue;
+    EXPECT_EQ(entry.path().filename(), "database.cpp");
+    ++found;
+  }
+  EXPECT_EQ(found, 1);
 }
 
 TEST(Layers, HeadersHaveOneGuardAndNoUsingNamespace) {

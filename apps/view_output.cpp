@@ -16,6 +16,17 @@ constexpr int kFrames = 300;
 constexpr int kPushes = 100;
 constexpr int kPadPoints = 15'000;
 
+void write_exports(const ViewFiles& files, const Shown& one) {
+  if (files.frames.empty() && files.glb.empty()) return;
+  const viewer::Film film = viewer::film(one.model, one.plan, {.is_plan = one.is_plan});
+  if (!files.frames.empty()) {
+    write_atomically(files.frames, viewer::key_frames(one.model, film));
+  }
+  if (!files.glb.empty()) {
+    write_atomically(files.glb, viewer::animation_glb(one.model, film));
+  }
+}
+
 }  // namespace
 
 void add_view_option(CLI::App& command, std::string& file) {
@@ -43,14 +54,8 @@ bool write_view(const ViewFiles& files, const std::vector<Shown>& shown) {
     all_agree = all_agree && film.agrees;
     title += (title.empty() ? "" : " | ") + one.model.scene.name;
     films.push_back(viewer::to_json(one.model, one.plan, film, kPadPoints / parts));
-    if (&one != &shown.front()) continue;
-    if (!files.frames.empty()) {
-      write_atomically(files.frames, viewer::key_frames(one.model, film));
-    }
-    if (!files.glb.empty()) {
-      write_atomically(files.glb, viewer::animation_glb(one.model, film));
-    }
   }
+  write_exports(files, shown.front());
   if (!files.page.empty()) write_atomically(files.page, viewer::page(title, films));
   return all_agree;
 }

@@ -40,7 +40,7 @@ std::string output_of(const std::string& command) {
 std::string browser() {
   for (const char* name : {"chromium", "chromium-browser", "google-chrome"}) {
     const std::string found =
-        output_of("command -v " + std::string(name) + " 2>/dev/null");
+        output_of(std::string("command -v ") + name + " 2>/dev/null");
     if (!found.empty()) return found.substr(0, found.find('\n'));
   }
   return {};

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include "apps/commands.h"
 #include "apps/parallel.h"
@@ -16,6 +17,8 @@ namespace {
 
 struct Options {
   std::vector<std::string> files;
+  std::vector<std::string> overrides;
+  bool json = false;
   ViewFiles out;
   int samples = 0;
   std::vector<std::string> vary;
@@ -46,16 +49,29 @@ std::vector<Grasp> sampled_ends(const Options& options, const Shown& shown) {
 
 Shown read(const Options& options, const std::string& file) {
   if (!is_plan_file(file)) {
-    const Scene scene = read_scene(file).scene;
+    const Scene scene = read_scene(file, options.overrides).scene;
     Plan plan;
     plan.start = plan.goal = scene.start;
     return {prepare(scene), plan, false, {}};
+  }
+  if (!options.overrides.empty()) {
+    throw BadInput("--set " + options.overrides.front() + ": " + file +
+                   " is a plan, made for the scene in it: expected a scene file");
   }
   const PlanFile read = read_plan(file);
   Shown shown{prepare(read.scene), read.plan, true, {}};
   const bool has_pushes = shown.plan.usable() && !shown.plan.pushes.empty();
   if (options.samples > 0 && has_pushes) shown.outcomes = sampled_ends(options, shown);
   return shown;
+}
+
+std::string describe(const ViewFiles& out, bool agrees) {
+  std::string words;
+  if (!out.page.empty()) words += "page: " + out.page + '\n';
+  if (!out.frames.empty()) words += "key frames: " + out.frames + '\n';
+  if (!out.glb.empty()) words += "animation: " + out.glb + '\n';
+  if (!agrees) words += "a replay does not agree with the plan: the page says why\n";
+  return words;
 }
 
 int run(const Options& options) {
@@ -65,10 +81,13 @@ int run(const Options& options) {
   ViewFiles out = options.out;
   if (out.page.empty() && out.frames.empty() && out.glb.empty()) out.page = "view.html";
   const bool agrees = write_view(out, shown);
-  if (!out.page.empty()) std::printf("page: %s\n", out.page.c_str());
-  if (!out.frames.empty()) std::printf("key frames: %s\n", out.frames.c_str());
-  if (!out.glb.empty()) std::printf("animation: %s\n", out.glb.c_str());
-  if (!agrees) std::printf("a replay does not agree with the plan: the page says why\n");
+  if (options.json) {
+    const nlohmann::ordered_json written = {
+        {"page", out.page}, {"frames", out.frames}, {"glb", out.glb}, {"agrees", agrees}};
+    std::printf("%s\n", written.dump(2).c_str());
+  } else {
+    std::fputs(describe(out, agrees).c_str(), stdout);
+  }
   return agrees ? kDone : kNegative;
 }
 
@@ -83,6 +102,12 @@ Command add_view(CLI::App& app) {
                   "plan file (.json) or scene file; two: side by side")
       ->required()
       ->expected(1, 2);
+  command
+      .add_option("--set", options->overrides,
+                  "override a field of the scene file: start.x=0.01 (repeatable)")
+      ->allow_extra_args(false);
+  command.add_flag("--json", options->json,
+                   "print one JSON object on stdout, nothing else");
   command.add_option("-o,--output", options->out.page,
                      "page to write (HTML); view.html if nothing else is asked for");
   command.add_option("--frames", options->out.frames,

@@ -9,6 +9,25 @@
 #include "viewer/page.h"
 
 namespace prehensile::apps {
+namespace {
+
+// Of all films of a page together.
+constexpr int kFrames = 300;
+constexpr int kPushes = 100;
+constexpr int kPadPoints = 15'000;
+
+void write_exports(const ViewFiles& files, const Shown& one) {
+  if (files.frames.empty() && files.glb.empty()) return;
+  const viewer::Film film = viewer::film(one.model, one.plan, {.is_plan = one.is_plan});
+  if (!files.frames.empty()) {
+    write_atomically(files.frames, viewer::key_frames(one.model, film));
+  }
+  if (!files.glb.empty()) {
+    write_atomically(files.glb, viewer::animation_glb(one.model, film));
+  }
+}
+
+}  // namespace
 
 void add_view_option(CLI::App& command, std::string& file) {
   command.add_option("--view", file, "also write a page to look at (HTML)");
@@ -26,20 +45,17 @@ bool write_view(const ViewFiles& files, const std::vector<Shown>& shown) {
   bool all_agree = true;
   std::vector<std::string> films;
   std::string title;
+  const int parts = static_cast<int>(shown.size());  // share the size of the page
   for (const Shown& one : shown) {
-    viewer::Film film = viewer::film(one.model, one.plan, {.is_plan = one.is_plan});
+    viewer::Film film = viewer::film(
+        one.model, one.plan,
+        {.frames = kFrames / parts, .pushes = kPushes / parts, .is_plan = one.is_plan});
     film.outcomes = one.outcomes;
     all_agree = all_agree && film.agrees;
     title += (title.empty() ? "" : " | ") + one.model.scene.name;
-    films.push_back(viewer::to_json(one.model, one.plan, film));
-    if (&one != &shown.front()) continue;
-    if (!files.frames.empty()) {
-      write_atomically(files.frames, viewer::key_frames(one.model, film));
-    }
-    if (!files.glb.empty()) {
-      write_atomically(files.glb, viewer::animation_glb(one.model, film));
-    }
+    films.push_back(viewer::to_json(one.model, one.plan, film, kPadPoints / parts));
   }
+  write_exports(files, shown.front());
   if (!files.page.empty()) write_atomically(files.page, viewer::page(title, films));
   return all_agree;
 }

@@ -1,5 +1,5 @@
-/// Polygons cut into triangles, and into compact parts. Internal to the scene layer and to
-/// drawing.
+/// Polygons cut into triangles, and into compact parts. Internal to the scene layer and
+/// to drawing.
 #pragma once
 
 #include <array>

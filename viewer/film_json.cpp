@@ -14,7 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kPadPoints = 15'000;  // written in all: more would be a large page
 constexpr std::size_t kMostOutcomes = 400;  // drawn; they are draws, so the first will do
 
 /// Six digits.
@@ -189,14 +188,14 @@ Json events_json(const Transition& transition) {
 }
 
 /// Of how many frames one has its pads written.
-std::size_t pad_stride(const Film& film) {
+std::size_t pad_stride(const Film& film, int most) {
   std::size_t points = 0;
   for (const FilmPush& push : film.pushes) {
     for (const FilmFrame& frame : push.frames) {
       for (const auto& pad : frame.loads.pad) points += pad.size();
     }
   }
-  return 1 + points / kPadPoints;
+  return 1 + points / static_cast<std::size_t>(std::max(1, most));
 }
 
 Json push_json(const Model& model, const FilmPush& push, std::size_t stride) {
@@ -275,7 +274,8 @@ Json goal_json(const Goal& goal) {
 
 }  // namespace
 
-std::string to_json(const Model& model, const Plan& plan, const Film& film) {
+std::string to_json(const Model& model, const Plan& plan, const Film& film,
+                    int pad_points) {
   const Scene& scene = model.scene;
   Json out = {{"format", 1},
               {"name", scene.name},
@@ -291,7 +291,7 @@ std::string to_json(const Model& model, const Plan& plan, const Film& film) {
               {"pushes", Json::array()},
               {"phases", phases_json(film)},
               {"outcomes", Json::array()}};
-  const std::size_t stride = pad_stride(film);
+  const std::size_t stride = pad_stride(film, pad_points);
   for (const FilmPush& push : film.pushes) {
     out["pushes"].push_back(push_json(model, push, stride));
   }

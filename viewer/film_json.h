@@ -9,7 +9,9 @@
 namespace prehensile::viewer {
 
 /// SI units and radians; lengths rounded to 1e-7 m, everything else to six digits. What
-/// is not a number is null.
-std::string to_json(const Model& model, const Plan& plan, const Film& film);
+/// is not a number is null. Pads are written at as many frames as have about `pad_points`
+/// points in all.
+std::string to_json(const Model& model, const Plan& plan, const Film& film,
+                    int pad_points = 15'000);
 
 }  // namespace prehensile::viewer

@@ -99,6 +99,7 @@ std::vector<Vec2> moved(const PlanarPose& X, std::vector<Vec2> points) {
 
 std::vector<Vec2> circle(const Vec2& centre, double radius) {
   std::vector<Vec2> points;
+  points.reserve(64);
   for (int i = 0; i < 64; ++i) {
     points.push_back(centre +
                      rotated(2.0 * std::numbers::pi * i / 64, Vec2(radius, 0.0)));
@@ -342,8 +343,9 @@ std::string key_frames(const Model& model, const Film& film, int most) {
   Drawing drawing;
   drawing.rectangle(0.0, 0.0, width, height, "#ffffff", {});
   for (std::size_t i = 0; i < panels; ++i) {
+    const std::size_t row = i / columns;
     const double left = kGap + static_cast<double>(i % columns) * (kPanel + kGap);
-    const double top = kTitle + static_cast<double>(i / columns) * (kPanel + kTitle);
+    const double top = kTitle + static_cast<double>(row) * (kPanel + kTitle);
     const bool rolls = i < shown && film.pushes[i].kind == "roll";
     const Vec2 middle = rolls ? Vec2::Zero() : middles[i];
     const double half = rolls ? 3.0 * model.half_thickness : half_width;

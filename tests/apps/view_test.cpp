@@ -51,6 +51,17 @@ TEST_F(ViewTest, ShowsScenesAndPushes) {
   EXPECT_TRUE(holds(read_text(page_), "\"kind\":\"slide\""));
 }
 
+TEST_F(ViewTest, AnswersInJsonAndTakesOverridesOfScenes) {
+  const Outcome shown = run_program(
+      "view problems/paper/roll.yaml --set 'name=\"<b>\"' --json -o " + page_);
+  EXPECT_EQ(shown.exit_code, 0) << shown.err;
+  EXPECT_TRUE(holds(shown.out, "\"agrees\": true"));
+  EXPECT_EQ(shown.out.front(), '{');
+  EXPECT_TRUE(holds(read_text(page_), "<title>&lt;b&gt;</title>"));
+  EXPECT_EQ(run_program("view " + plan_ + " --set object.mass=1 -o " + page_).exit_code,
+            2);
+}
+
 TEST_F(ViewTest, SaysWhenAPlanDoesNotHold) {
   std::string text = read_text(plan_);
   const std::string key = "\"push_force\": ";

@@ -33,8 +33,7 @@ const std::map<std::string, std::set<std::string>> kLeftOf = {
      {"scene", "optimisation", "mechanics", "primitives", "planner", "plot", "viewer"}},
     {"apps",
      {"scene", "optimisation", "mechanics", "primitives", "planner", "mesh", "io", "plot",
-      "viewer",
-      "apps"}},
+      "viewer", "apps"}},
 };
 
 /// Where a third party, or a part of the standard library, may be named.

@@ -40,7 +40,7 @@ std::string output_of(const std::string& command) {
 std::string browser() {
   for (const char* name : {"chromium", "chromium-browser", "google-chrome"}) {
     const std::string found =
-        output_of("command -v " + std::string(name) + " 2>/dev/null");
+        output_of(std::string("command -v ") + name + " 2>/dev/null");
     if (!found.empty()) return found.substr(0, found.find('\n'));
   }
   return {};
@@ -125,6 +125,39 @@ TEST(BrowserFull, OpensEveryKindOfPage) {
       page("refused", {to_json(tee.model, refused, film(tee.model, refused))});
   expect_drawn(program, folder, "refused", text, "");
   EXPECT_NE(opened(program, folder, text, "").find("No plan: "), std::string::npos);
+}
+
+/// Keys do what the page says they do.
+TEST(BrowserFull, ObeysKeys) {
+  const std::string program = browser();
+  if (program.empty()) GTEST_SKIP() << "no chromium on this machine";
+  const Folder folder;
+  const FilmCase& one = film_cases()[7];
+  std::string text = page("keys", {to_json(one.model, one.plan, one.film)});
+  const std::string pressing = R"(<script>
+    const press = (key) => window.dispatchEvent(new KeyboardEvent('keydown', {key, bubbles: true}));
+    const clock = () => document.querySelector('.clock').textContent;
+    const seen = [clock()];
+    press(']'); seen.push(clock());
+    press(']'); seen.push(document.querySelector('.pushes [aria-current]').textContent);
+    press('End'); seen.push(clock());
+    press('f'); seen.push(document.querySelector('.tools select').value);
+    press('d'); seen.push(document.documentElement.dataset.theme);
+    press('Home'); seen.push(clock() === seen[0]);
+    press(' '); seen.push(document.querySelector('.play').getAttribute('aria-label'));
+    document.documentElement.dataset.seen = seen.join('; ');
+  </script></body>)";
+  text.replace(text.rfind("</body>"), 7, pressing);
+  const std::string out = opened(program, folder, text, "");
+  const double begin = one.film.phases[1].begin, end = one.film.phases.back().end;
+  char expected[200];
+  std::snprintf(expected, sizeof expected,
+                "data-seen=\"0.00 / %.2f s; %.2f / %.2f s; 2. push by floor on -y; "
+                "%.2f / %.2f s; world; dark; true; Pause\"",
+                end, begin, end, end, end);
+  const std::size_t seen = out.find("data-seen=");
+  ASSERT_NE(seen, std::string::npos);
+  EXPECT_EQ(out.substr(seen, std::string(expected).size()), expected);
 }
 
 /// Nothing in a scene's words runs.

@@ -57,6 +57,10 @@ TEST(Page, StaysSmall) {
   EXPECT_EQ(static_cast<int>(many.pushes.size()) + many.left_out, 5000);
   const std::string data = to_json(one.model, one.plan, many);
   EXPECT_LT(page("many", {data}).size(), kLargestPage);
+  // Two of them share the room.
+  const Film fewer = film(one.model, one.plan, {.frames = 150, .pushes = 50});
+  const std::string half = to_json(one.model, one.plan, fewer, 7500);
+  EXPECT_LT(page("two", {half, half}).size(), kLargestPage);
 }
 
 /// Pads of many points, whose places change all the time.

@@ -245,9 +245,14 @@ export class Stage {
     this.gravity.point(tail.addScaledVector(direction, -0.5 * length), direction.multiplyScalar(length));
   }
 
+  /// However often it is asked for, once per picture of the screen.
   render() {
-    if (!this.scene) return;
-    this.#placeGravity();
-    this.renderer.render(this.scene, this.camera);
+    if (this.isDue) return;
+    this.isDue = true;
+    requestAnimationFrame(() => {
+      this.isDue = false;
+      this.#placeGravity();
+      this.renderer.render(this.scene, this.camera);
+    });
   }
 }

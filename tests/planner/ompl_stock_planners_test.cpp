@@ -67,7 +67,7 @@ void expect_directed(int scenes, std::int64_t least, std::uint64_t seeds) {
 TEST(OmplStockPlanners, EveryPushIsDoneInItsDirection) { expect_directed(4, 600, 1); }
 
 TEST(OmplStockPlanners, FullEveryPushIsDoneInItsDirection) {
-  expect_directed(40, 10'000, 2);
+  expect_directed(30, 1000, 2);
 }
 
 TEST(OmplStockPlanners, OptionsOfTheCatalogueAreParametersOfOmpl) {

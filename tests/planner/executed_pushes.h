@@ -22,7 +22,7 @@ inline std::string fault_in_execution(const Model& model, const Grasp& start,
   const Transition done = apply(model, start, push);
   // Without a margin there may be a second motion; the exact check refuses such plans,
   // and it says nothing about directions.
-  if (name(done.status) == "ambiguous") return {};
+  if (done.status == TransitionStatus::kAmbiguous) return {};
   if (!done.completed()) return std::string(name(done.status));
   if (std::holds_alternative<Roll>(push)) return {};
   if (done.slipped > 1e-6) return "slips";

@@ -118,7 +118,7 @@ bool make_leg(const Steering& steering, int contact, const Stop& from, const Sto
         steering.envelope->kappas(search.contacts[contact].stick, from.p_OF, to.p_OF);
   } else if (steering.real_pads) {  // slow: loops look at their limits too rarely
     if (work.interrupted()) return false;
-    if (work.meter) work.meter->tick(work.stick_tests + work.propagations);
+    if (work.meter) work.meter->tick(work.done());
     leg.kappas = measured_kappas(search, contact, from.p_OF, to.p_OF, work);
   } else {
     ++work.stick_tests;
@@ -234,7 +234,7 @@ bool make_chain_stick(const SearchModel& search, double theta_start, double dthe
 bool move_passes(const SearchModel& search, const Move& move, Work& work) noexcept {
   return segment_on_object(*search.model, move.from.p_OF, move.to.p_OF) &&
          exact_slack(search, move, work) >= -kStickTolerance &&
-         pads_hold_gravity(search, move);
+         pads_hold_gravity(search, move, work);
 }
 
 bool chain_passes(const SearchModel& search, const Chain& chain, double theta_start,
@@ -249,9 +249,9 @@ bool chain_passes(const SearchModel& search, const Chain& chain, double theta_st
     }
     theta = moves[k].to.theta;
   }
-  const bool held =
-      std::all_of(moves.begin(), moves.begin() + chain.count,
-                  [&](const Move& move) { return pads_hold_gravity(search, move); });
+  const bool held = std::all_of(
+      moves.begin(), moves.begin() + chain.count,
+      [&](const Move& move) { return pads_hold_gravity(search, move, work); });
   if (!held) work.stopped_by.add(PushConstraint::kGravity);
   return held;
 }

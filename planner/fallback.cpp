@@ -14,7 +14,7 @@ std::optional<std::vector<Move>> fall_back(const SearchModel& search, const Gras
   const BaselineQuestion question{
       search, start, goal, *find_planner(kFallbackPlanner), defaults, options.seed};
   const std::int64_t whole = work.budget;
-  work.budget = std::min(whole, work.stick_tests + work.propagations + budget);
+  work.budget = std::min(whole, work.done() + budget);
   const auto moves = shoot_at_random(question, Limits(options, work), work);
   work.budget = whole;
   if (!moves) return std::nullopt;

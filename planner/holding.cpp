@@ -17,6 +17,9 @@ constexpr double kSurelyHeld = 1.0 - 0.84;
 constexpr double kSurelyHeldByDisc = 1.0 - 0.92;
 constexpr double kSurelyNotHeld = 1.0 - 1.06;
 
+/// Work of asking the pads point by point, in stick tests.
+constexpr std::int64_t kExactCheck = 50;
+
 /// A twist in which gravity gains more power than friction takes, among the normals of
 /// ellipsoids about the middle of the pads: enough to reject, not to accept.
 bool surely_falls(const PlanarGrasp& grasp) {
@@ -46,8 +49,8 @@ bool surely_falls(const PlanarGrasp& grasp) {
 
 }  // namespace
 
-bool pads_hold_gravity(const Model& model, const PlanarPose& X_HO,
-                       const Vec2& g_O) noexcept {
+bool pads_hold_gravity(const Model& model, const PlanarPose& X_HO, const Vec2& g_O,
+                       Work& work) noexcept {
   if (!can_roll(model.scene.object) && model.region.is_whole(X_HO)) {
     const double slack =
         holding_slack(model, finger_in_object(X_HO), g_O, Margin::none());
@@ -55,11 +58,12 @@ bool pads_hold_gravity(const Model& model, const PlanarPose& X_HO,
     if (slack >= (disc ? kSurelyHeldByDisc : kSurelyHeld)) return true;
     if (slack <= kSurelyNotHeld) return false;
   }
+  work.other += kExactCheck;
   const PlanarGrasp grasp = grasp_at(model, X_HO, g_O);
   return grasp.count > 0 && !surely_falls(grasp) && gravity_slack(grasp) > kFirmlyHeld;
 }
 
-bool pads_hold_gravity(const SearchModel& search, const Move& move) noexcept {
+bool pads_hold_gravity(const SearchModel& search, const Move& move, Work& work) noexcept {
   const Model& model = *search.model;
   const Vec2& g_O = model.contacts[search.contacts[move.contact].contact].g_O;
   if (g_O.isZero(0.0)) return true;
@@ -68,7 +72,7 @@ bool pads_hold_gravity(const SearchModel& search, const Move& move) noexcept {
     // The ends first: gravity is lost there before it is lost between them.
     const int place = i == 0 ? 0 : i == 1 ? points - 1 : i - 1;
     const double share = static_cast<double>(place) / (points - 1);
-    if (!pads_hold_gravity(model, pose_along(move.from, move.to, share), g_O)) {
+    if (!pads_hold_gravity(model, pose_along(move.from, move.to, share), g_O, work)) {
       return false;
     }
   }

@@ -27,7 +27,7 @@ class Limits {
   }
 
   bool reached() const {
-    if (work_.meter) work_.meter->tick(work_.stick_tests + work_.propagations);
+    if (work_.meter) work_.meter->tick(work_.done());
     return work_.spent() || stopped() || out_of_time();
   }
 

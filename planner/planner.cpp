@@ -178,7 +178,7 @@ Plan search_with_and_without(const Model& model, const PlanOptions& options, Wor
   }
   PlanOptions rest = options;
   rest.time_limit *= 1.0 - kShareOfTime;
-  work.budget += work.stick_tests + work.propagations;
+  work.budget += work.done();
   Plan without = search_and_check(model, rest, Margin::none(), work, found);
   without.instants += plan.instants;
   if (!without.usable()) {

@@ -34,7 +34,7 @@ std::optional<Move> best_contact(const SearchModel& search, const FlatState& fro
     if (!(slack >= -kStickTolerance)) {
       work.stopped_by.add(constraint_of(search.contacts[i], from.p_OF, to.p_OF));
     }
-    if (!(slack > best_slack) || !pads_hold_gravity(search, move)) continue;
+    if (!(slack > best_slack) || !pads_hold_gravity(search, move, work)) continue;
     best_slack = slack;
     best = move;
   }
@@ -157,7 +157,7 @@ bool plan_in_shares(const SearchModel& search, const Grasp& start, const Goal& g
   const double share =
       setting(*find_planner(kOwnPlanner), options.settings, "fallback_share");
   const std::int64_t whole = work.budget;
-  const std::int64_t left = whole - work.stick_tests - work.propagations;
+  const std::int64_t left = whole - work.done();
   const auto of_fallback = static_cast<std::int64_t>(share * static_cast<double>(left));
   work.budget -= of_fallback;
   const bool exact = plan_in_plane(search, start, goal, limits, work, plan);

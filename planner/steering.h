@@ -29,12 +29,14 @@ struct FlatState {
 struct Work {
   std::int64_t stick_tests = 0;
   std::int64_t propagations = 0;
+  std::int64_t other = 0;  ///< of other kinds, in the time of a stick test
   std::int64_t budget = 0;
   ConstraintCounts stopped_by;     ///< what stopped the pushes tried
   ProgressMeter* meter = nullptr;  ///< told how far the search is, if there is one
   const std::atomic<bool>* stop = nullptr;  ///< as in PlanOptions
   bool interrupted() const { return stop && stop->load(std::memory_order_relaxed); }
-  bool spent() const { return stick_tests + propagations >= budget; }
+  std::int64_t done() const { return stick_tests + propagations + other; }
+  bool spent() const { return done() >= budget; }
 };
 
 /// A contact compiled for steering. A line pusher stands at `place`. A point pusher

@@ -101,16 +101,14 @@ class Ending {
 
   bool operator()() {
     const Work& work = problem_.work();
-    if (work.meter) work.meter->tick(work.stick_tests + work.propagations);
+    if (work.meter) work.meter->tick(work.done());
     return work.spent() || is_stopped() || is_late() || is_improved() || is_idle();
   }
 
   bool is_stopped() const { return options_.stop != nullptr && options_.stop->load(); }
 
  private:
-  static std::int64_t left(const Work& work) {
-    return work.budget - work.stick_tests - work.propagations;
-  }
+  static std::int64_t left(const Work& work) { return work.budget - work.done(); }
 
   bool is_late() const { return options_.time_limit > 0.0 && Clock::now() >= deadline_; }
 

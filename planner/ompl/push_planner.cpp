@@ -50,10 +50,10 @@ ob::PlannerStatus PushPlanner::solve(const ob::PlannerTerminationCondition& cond
   const Work& work = problem_.work();
   options_.settings["fallback_share"] = 0.0;
   for (std::int64_t round = kFirstRound; !condition(); round *= 2) {
-    const std::int64_t budget = std::min(work.budget, work.stick_tests + round);
+    const std::int64_t budget = std::min(work.budget, work.done() + round);
     const ob::PlannerStatus status = search(budget);
     const bool cut_short =
-        plan_.status == PlanStatus::kBudgetSpent && work.stick_tests >= budget;
+        plan_.status == PlanStatus::kBudgetSpent && work.done() >= budget;
     if (!cut_short || work.spent()) return status;
   }
   return ob::PlannerStatus::TIMEOUT;

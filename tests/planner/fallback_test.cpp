@@ -51,11 +51,11 @@ TEST(Fallback, FindsShortWaysOnItsOwn) {
 TEST(Fallback, GoesOnWhereTheExactStagesAreCutShort) {
   int carried_on = 0;
   int without = 0;
-  for (int i = 0; i < 30; ++i) {
-    const Model model = prepare(random_among_walls(false, RegraspRange::kWide, true, 6,
+  for (int i = 0; i < 60; ++i) {
+    const Model model = prepare(random_among_walls(true, RegraspRange::kWide, true, 6,
                                                    static_cast<std::uint64_t>(i)));
     PlanOptions options{
-        .settings = {{"fallback_share", 0.9}}, .budget = 600, .margin = Margin::none()};
+        .settings = {{"fallback_share", 0.9}}, .budget = 3000, .margin = Margin::none()};
     const Plan plan = plan_regrasp(model, options);
     options.settings["fallback_share"] = 0.0;
     without += plan_regrasp(model, options).usable();

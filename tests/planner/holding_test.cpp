@@ -16,6 +16,7 @@ TEST(Holding, AgreesWithTheSlackOfGravity) {
   Random random(1);
   int held = 0;
   int fallen = 0;
+  int counted = 0;
   for (int i = 0; i < 4000; ++i) {
     Scene scene = testing::walled_square();
     const double size = random.in(0.003, 0.012);
@@ -36,11 +37,15 @@ TEST(Holding, AgreesWithTheSlackOfGravity) {
     const Vec2 g_O = 9.81 * random.direction();
     const double slack = gravity_slack(grasp_at(model, X_HO, g_O));
     if (std::abs(slack) < 1e-3) continue;
-    EXPECT_EQ(pads_hold_gravity(model, X_HO, g_O), slack > 0.0) << i << " " << slack;
+    Work work;
+    EXPECT_EQ(pads_hold_gravity(model, X_HO, g_O, work), slack > 0.0)
+        << i << " " << slack;
+    counted += work.other > 0 ? 1 : 0;
     (slack > 0.0 ? held : fallen) += 1;
   }
   EXPECT_GT(held, 500);
   EXPECT_GT(fallen, 500);
+  EXPECT_GT(counted, 100);  // what is not told cheaply is work
 }
 
 TEST(Holding, NoGravityIsAlwaysHeld) {
@@ -48,7 +53,10 @@ TEST(Holding, NoGravityIsAlwaysHeld) {
   scene.g_W.setZero();
   const Model model = prepare(scene);
   const SearchModel search = prepare_search(model, Margin{});
-  EXPECT_TRUE(pads_hold_gravity(search, {0, {{0.04, 0.0}, 0.0}, {{0.0, 0.0}, 1.0}}));
+  Work work;
+  EXPECT_TRUE(
+      pads_hold_gravity(search, {0, {{0.04, 0.0}, 0.0}, {{0.0, 0.0}, 1.0}}, work));
+  EXPECT_EQ(work.done(), 0);
 }
 
 }  // namespace

@@ -59,6 +59,7 @@ std::vector<Problem> wide_problems(int count, std::uint64_t seed) {
 
 std::vector<Problem> tuning_problems(int count, std::uint64_t seed) {
   std::vector<Problem> problems;
+  problems.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     problems.push_back(
         {"tuning", random_among_walls(i % 4 == 3, RegraspRange::kWide, i % 2 == 0, seed,

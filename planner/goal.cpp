@@ -138,8 +138,8 @@ GoalPlaces goal_places(const Model& model, const Goal& goal,
 
 GoalPlaces tolerated_places(const Model& model, const Goal& goal,
                             const FlatState& start) noexcept {
+  if (!goal.x || !goal.y || !goal.theta) return {};
   PlaceCollector collector(model, goal, start);
-  if (!goal.x || !goal.y || !goal.theta) return collector.sorted();
   const double middle = start.theta + wrapped(*goal.theta - start.theta);
   const bool shared = goal.test == GoalTest::kWeightedSum;
   const double most =

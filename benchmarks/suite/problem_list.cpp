@@ -16,6 +16,8 @@ template <typename... Visitors>
 struct Overloaded : Visitors... {
   using Visitors::operator()...;
 };
+template <typename... Visitors>
+Overloaded(Visitors...) -> Overloaded<Visitors...>;
 
 /// Files below `folder` whose path relative to it matches, component by component.
 void find_files(const fs::path& folder, fs::path::const_iterator part,

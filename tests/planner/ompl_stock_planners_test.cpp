@@ -25,6 +25,7 @@ std::vector<PlannerKind> stock_kinds() {
 /// Random wide Ts and squares, with gravity and without.
 std::vector<Scene> random_scenes(int count) {
   std::vector<Scene> scenes;
+  scenes.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     scenes.push_back(random_among_walls(i % 4 == 1, RegraspRange::kWide, i % 2 == 0, 9,
                                         static_cast<std::uint64_t>(i)));

@@ -14,7 +14,7 @@ using testing::kNoBudget;
 using testing::Random;
 
 struct Steps {
-  explicit Steps(Scene scene, ControlMeaning meaning = ControlMeaning::kSteered)
+  explicit Steps(const Scene& scene, ControlMeaning meaning = ControlMeaning::kSteered)
       : model(prepare(scene)),
         search(prepare_search(model, Margin::none())),
         work{.budget = kNoBudget},

@@ -148,7 +148,7 @@ TEST(Results, OtherFilesAreRefused) {
   const Folder folder;
   std::ofstream(folder / "text")
       << "not a database, but long enough to look at: " << std::string(2000, 'x');
-  std::ofstream(folder / "empty");
+  std::ofstream(folder / "empty") << "";
   for (const char* name : {"text", "empty", "absent", "."}) {
     EXPECT_NE(message_of([&] { read_results(folder / name); }), "") << name;
   }

@@ -121,9 +121,8 @@ RandomRegrasp random_regrasp(RegraspFamily family, std::uint64_t seed,
     }
     if (!check(problem.scene).empty()) continue;
     const Model model = prepare(problem.scene);
-    const ChainRange range{.least = two_pushers ? 2 : 1,
-                           .two_pushers = two_pushers,
-                           .rolls = rolls};
+    const ChainRange range{
+        .least = two_pushers ? 2 : 1, .two_pushers = two_pushers, .rolls = rolls};
     if (append_chain(model, range, random, problem)) return problem;
   }
 }

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cinttypes>
 #include <cmath>
+#include <cstdint>
+#include <cstdio>
 
 namespace prehensile::internal {
 namespace {
@@ -182,6 +185,17 @@ void Faults::fail(const Place& place, const std::string& field, const std::strin
   add(place, field, what);
   raise();
   throw BadInput(what);
+}
+
+std::string digest_of(const std::string& text) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char c : text) {
+    hash ^= static_cast<unsigned char>(c);
+    hash *= 0x100000001b3u;
+  }
+  char hex[17];
+  std::snprintf(hex, sizeof hex, "%016" PRIx64, hash);
+  return hex;
 }
 
 }  // namespace prehensile::internal

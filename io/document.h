@@ -114,6 +114,9 @@ Value parse_json(const std::string& text, Faults& faults);
 std::string to_yaml(const Value& value);
 std::string to_json(const Value& value);
 
+/// FNV-1a, 64 bits (Fowler, Noll, Vo), in hex.
+std::string digest_of(const std::string& text);
+
 /// Refuses bytes that are not UTF-8, and control characters.
 void check_characters(const std::string& text, Faults& faults);
 

@@ -29,6 +29,17 @@ class FieldSchema {
     return schema.take();
   }
 
+  /// A whole schema file.
+  template <typename T, typename Visit>
+  static std::string document(const char* title, const char* description, T& example,
+                              const Visit& visit) {
+    Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
+                   {"title", title},
+                   {"description", description}};
+    schema.update(describe(example, visit));
+    return schema.dump(2) + '\n';
+  }
+
   void version(int number) {
     add("version", {{"const", number}}, kRequired, "Version of this format.");
   }

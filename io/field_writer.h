@@ -108,6 +108,8 @@ class FieldWriter {
 
   template <typename Variant, typename... Alternatives>
   void choice(Variant& from, const Alternatives&... alternatives) {
+    static_assert(sizeof...(Alternatives) == std::variant_size_v<Variant>,
+                  "a kind without a key in files");
     const auto write_if_chosen = [&](const auto& candidate) {
       using T = typename std::decay_t<decltype(candidate)>::Type;
       if (T* value = std::get_if<T>(&from)) {

@@ -41,9 +41,10 @@ inline const auto kStatusWords = named(
                PlanStatus::kUnsupported});
 inline const auto kPromiseWords = named(std::array{
     Promise::kNominal, Promise::kNominalOnly, Promise::kMargin, Promise::kScene});
-inline const auto kProofWords = named(std::array{
-    Proof::Kind::kGoalOffObject, Proof::Kind::kStartFalls, Proof::Kind::kGoalFalls,
-    Proof::Kind::kNoPusher, Proof::Kind::kNoRoll, Proof::Kind::kHalfSpace});
+inline const auto kProofWords = named(
+    std::array{Proof::Kind::kGoalOffObject, Proof::Kind::kStartFalls,
+               Proof::Kind::kGoalFalls, Proof::Kind::kNoPusher, Proof::Kind::kNoRoll,
+               Proof::Kind::kHalfSpace, Proof::Kind::kGoalBeyondLimits});
 
 /// A push as the file has it: pusher and face by name.
 struct WrittenPush {

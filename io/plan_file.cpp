@@ -21,6 +21,13 @@ using internal::WrittenPush;
 
 constexpr double kUnitTolerance = 1e-6;
 
+/// YAML begins with a key or a comment where JSON has a bracket.
+bool looks_like_a_scene(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string::npos) return false;
+  return text[first] == '#' || text.compare(first, 8, "version:") == 0;
+}
+
 constexpr auto kVisit = [](auto& fields, WrittenPlan& record) {
   internal::visit_plan(fields, record);
 };
@@ -226,6 +233,10 @@ std::string plan_to_json(const PlanFile& file) {
 
 PlanFile parse_plan(const std::string& text, const std::string& label) {
   Faults faults(label);
+  if (looks_like_a_scene(text)) {
+    faults.fail({}, "",
+                "a scene file: expected a plan file, as `prehensile plan` writes it");
+  }
   const Value root = internal::parse_json(text, faults);
   WrittenPlan record;
   internal::FieldReader::read(root, "", faults, record, kVisit);
@@ -261,13 +272,10 @@ PlanFile read_plan(const std::filesystem::path& file) {
 
 std::string plan_schema() {
   WrittenPlan defaults;
-  nlohmann::ordered_json schema = {
-      {"$schema", "http://json-schema.org/draft-07/schema#"},
-      {"title", "Plan of prehensile"},
-      {"description",
-       "A regrasp plan with the scene that it is for. SI units, radians."}};
-  schema.update(internal::FieldSchema::describe(defaults, kVisit));
-  return schema.dump(2) + '\n';
+  return internal::FieldSchema::document(
+      "Plan of prehensile",
+      "A regrasp plan with the scene that it is for. SI units, radians.", defaults,
+      kVisit);
 }
 
 }  // namespace prehensile

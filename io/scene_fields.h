@@ -6,19 +6,14 @@
 #include <array>
 
 #include "io/fields.h"
+#include "io/shape_fields.h"
 #include "scene/scene.h"
 
 namespace prehensile::internal {
 
 inline constexpr int kSceneVersion = 1;
 
-inline constexpr Bounds kLengths{1e-6, 10.0, "m"};
-inline constexpr Bounds kPlaces{-10.0, 10.0, "m"};
 inline constexpr Bounds kFrictions{0.0, 1e3, ""};
-inline constexpr Bounds kAngles{-100.0, 100.0, "rad"};
-
-inline constexpr std::array<Word<Axis>, 3> kAxisWords = {
-    {{Axis::kX, "x"}, {Axis::kY, "y"}, {Axis::kZ, "z"}}};
 inline constexpr std::array<Word<JawMode>, 5> kJawModeWords = {
     {{JawMode::kCoupled, "coupled"},
      {JawMode::kFixedJaw1, "fixed_jaw_1"},
@@ -37,81 +32,28 @@ inline constexpr std::array<Word<GoalTest>, 2> kGoalTestWords = {
     {{GoalTest::kPerCoordinate, "per_coordinate"},
      {GoalTest::kWeightedSum, "weighted_sum"}}};
 
+inline constexpr std::array<Word<ThetaMeaning>, 2> kThetaWords = {
+    {{ThetaMeaning::kAngle, "angle"}, {ThetaMeaning::kNumber, "number"}}};
 inline constexpr std::array<Word<Spread>, 2> kSpreadWords = {
     {{Spread::kBox, "box"}, {Spread::kNormal, "normal"}}};
-
-inline constexpr std::array<Word<double>, 4> kUnitWords = {
-    {{1.0, "m"}, {0.01, "cm"}, {0.001, "mm"}, {0.0254, "inch"}}};
-
-template <typename Fields>
-void visit_solid(Fields& fields, SolidShape& solid) {
-  fields.points("outline", solid.outline, Length{3, 200}, kPlaces,
-                "Silhouette along z, counter-clockwise.");
-  fields.points("pad_face", solid.pad_face, Length{3, 200}, kPlaces,
-                "Where both pads find a flat face, counter-clockwise.");
-  fields.points("heights", solid.heights, Length{3, 200}, kPlaces,
-                "Lowest and highest point of the side at each edge of the outline.");
-  fields.number("thickness", solid.thickness, kLengths, kRequired,
-                "Between the two faces that the pads hold.");
-  fields.vector("centroid", solid.centroid, kPlaces, kRequired,
-                "Centre of the homogeneous body.");
-  const Eigen::Matrix3d& m = solid.spread;
-  std::array<double, 6> spread{m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)};
-  fields.vector("spread", spread, {-100.0, 100.0, "m^2"}, kRequired,
-                "Mean of xx, yy, zz, xy, xz, yz over the homogeneous body, from its "
-                "centre.");
-  solid.spread << spread[0], spread[3], spread[4],  //
-      spread[3], spread[1], spread[5],              //
-      spread[4], spread[5], spread[2];
-}
-
-template <typename Fields>
-void visit_mesh(Fields& fields, MeshShape& mesh) {
-  fields.text("file", mesh.file, kRequired,
-              "STL or OBJ file in the folder of the scene, or below.");
-  fields.word("unit", mesh.unit, kUnitWords, kRequired, "Of the numbers in the file.");
-  fields.text("pair", mesh.pair, kOptional,
-              "Faces that the jaws hold, by the names that `prehensile mesh` lists.");
-  fields.vector("closing_direction", mesh.closing, kPlaces,
-                "Instead of the name: the pair whose closing direction is nearest to "
-                "this, in the frame of the file.");
-  fields.vector("near", mesh.near_point, kPlaces,
-                "Of several such pairs the one nearest to this place, in metres in the "
-                "frame of the file.");
-}
 
 template <typename Fields>
 void visit_object(Fields& fields, Object& object) {
   fields.choice(
       object.shape,
       alternative<BoxShape>("box", "Box centred on the origin of the object frame O.",
-                            [](auto& f, BoxShape& box) {
-                              f.vector(
-                                  "size", box.size, kLengths, kRequired,
-                                  "Along x, y (pad plane) and z (between the jaws).");
-                            }),
+                            [](auto& f, BoxShape& box) { visit_box(f, box); }),
       alternative<CylinderShape>(
           "cylinder",
           "Cylinder centred on the origin of O, held at its flat ends (axis z) or on "
           "its curved side (x or y), where it can roll.",
-          [](auto& f, CylinderShape& cylinder) {
-            f.number("radius", cylinder.radius, kLengths, kRequired, "Radius.");
-            f.number("length", cylinder.length, kLengths, kRequired, "Length.");
-            f.word("axis", cylinder.axis, kAxisWords, kOptional, "Axis in O.");
-          }),
+          [](auto& f, CylinderShape& cylinder) { visit_cylinder(f, cylinder); }),
       alternative<PrismShape>(
           "prism",
           "Straight prism over a polygon: along z, the polygon in the pad plane of O; or "
           "lying along x or y, the polygon its convex section, which a support can roll "
           "over its edges.",
-          [](auto& f, PrismShape& prism) {
-            f.points("outline", prism.outline, Length{3, 200}, kPlaces,
-                     "Vertices, counter-clockwise; edges must not cross. [x, y]; of a "
-                     "section [y, z] (axis x) or [x, z] (axis y).");
-            f.number("thickness", prism.thickness, kLengths, kRequired,
-                     "Along the axis.");
-            f.word_if_not(Axis::kZ, "axis", prism.axis, kAxisWords, "Of the prism in O.");
-          }),
+          [](auto& f, PrismShape& prism) { visit_prism(f, prism); }),
       alternative<SolidShape>("solid",
                               "Any solid body held at two flat faces, as made from a "
                               "mesh.",
@@ -253,8 +195,10 @@ template <typename Fields>
 void visit_goal(Fields& fields, Goal& goal) {
   fields.number("x", goal.x, kPlaces, "Of O in H. Absent: free.");
   fields.number("y", goal.y, kPlaces, "Of O in H. Absent: free.");
-  fields.angle("theta", goal.theta, kAngles,
-               "Of O in H; any number of whole turns counts. Absent: free.");
+  fields.angle("theta", goal.theta, kAngles, "Of O in H. Absent: free.");
+  fields.word_if_not(ThetaMeaning::kAngle, "theta_is", goal.theta_is, kThetaWords,
+                     "angle: any number of whole turns counts; number: the turns made "
+                     "count, too (a cable hangs on the object).");
   fields.angle("roll", goal.psi, kAngles,
                "About the long axis; only for an object that can roll. Absent: free.");
   fields.group("tolerance", goal, kOptional, "How near is near enough.",
@@ -350,6 +294,12 @@ void visit_scene(Fields& fields, Scene& scene) {
   fields.group("goal", scene.goal,
                "Pose wanted in the hand; absent coordinates are free.",
                [](auto& f, Goal& goal) { visit_goal(f, goal); });
+  fields.group("limits", scene.limits,
+               "Where grasp and hand may get to. Absent: anywhere.",
+               [](auto& f, GraspLimits& limits) { visit_limits(f, limits); });
+  fields.group("obstacles", scene.obstacles,
+               "What the hand and the held object must not hit. Absent: nothing.",
+               [](auto& f, Obstacles& obstacles) { visit_obstacles(f, obstacles); });
   fields.group("calibration", scene.calibration,
                "What measurements said, beside the values that they changed; written by "
                "`prehensile calibrate`. Absent: not calibrated.",

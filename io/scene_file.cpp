@@ -1,6 +1,5 @@
 #include "io/scene_file.h"
 
-#include <cinttypes>
 #include <cstdint>
 #include <cstdio>
 
@@ -32,18 +31,6 @@ void add_faults_of_values(const Scene& scene, const Value& root, Faults& faults)
   }
 }
 
-/// FNV-1a, 64 bits (Fowler, Noll, Vo).
-std::string digest_of(const std::string& text) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : text) {
-    hash ^= static_cast<unsigned char>(c);
-    hash *= 0x100000001b3u;
-  }
-  char hex[17];
-  std::snprintf(hex, sizeof hex, "%016" PRIx64, hash);
-  return hex;
-}
-
 }  // namespace
 
 Scene parse_scene_alone(const std::string& text, const std::string& label,
@@ -56,6 +43,9 @@ Scene parse_scene_alone(const std::string& text, const std::string& label,
                     std::to_string(internal::kLargestScene) + " bytes");
   }
   Value root = internal::parse_yaml(text, faults);
+  if (root.find("scene_digest")) {
+    faults.fail({}, "", "a plan file: expected a scene file");
+  }
   internal::apply_overrides(root, overrides, faults);
   internal::add_mass_beside_mesh(root, folder, faults);
   Scene scene;
@@ -72,7 +62,7 @@ SceneFile parse_scene(const std::string& text, const std::string& label,
   SceneFile file;
   file.scene = parse_scene_alone(text, label, overrides, folder);
   file.text = text;
-  file.digest = digest_of(scene_to_yaml(file.scene));
+  file.digest = internal::digest_of(scene_to_yaml(file.scene));
   return file;
 }
 
@@ -89,14 +79,11 @@ std::string scene_to_yaml(const Scene& scene) {
 
 std::string scene_schema() {
   Scene defaults;
-  nlohmann::ordered_json schema = {
-      {"$schema", "http://json-schema.org/draft-07/schema#"},
-      {"title", "Scene of prehensile"},
-      {"description",
-       "What is held, what holds it, what it is pushed against, and the "
-       "regrasp that is wanted. SI units unless the key says otherwise."}};
-  schema.update(internal::FieldSchema::describe(defaults, kVisit));
-  return schema.dump(2) + '\n';
+  return internal::FieldSchema::document(
+      "Scene of prehensile",
+      "What is held, what holds it, what it is pushed against, and the "
+      "regrasp that is wanted. SI units unless the key says otherwise.",
+      defaults, kVisit);
 }
 
 }  // namespace prehensile

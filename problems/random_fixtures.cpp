@@ -8,6 +8,7 @@
 
 #include "mechanics/model.h"
 #include "problems/push_chain.h"
+#include "problems/tee_prism.h"
 
 namespace prehensile {
 namespace {
@@ -24,19 +25,7 @@ PrismShape random_tee(double size, RandomStream& random) {
   const double width = random.in(0.7, 1.0) * size;
   const double bar = random.in(0.25, 0.4) * size;
   const double stem = 0.5 * random.in(0.25, 0.45) * width;
-  const double left = -0.4 * size;
-  const double right = left + size;
-  const double half = 0.5 * width;
-  const double step = left + bar;
-  return {{{left, -half},
-           {step, -half},
-           {step, -stem},
-           {right, -stem},
-           {right, stem},
-           {step, stem},
-           {step, half},
-           {left, half}},
-          0.03};
+  return tee_prism(size, width, bar, stem);
 }
 
 /// Ascending angles of corners around the middle, none next to each other.

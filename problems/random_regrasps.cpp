@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "problems/push_chain.h"
+#include "problems/tee_prism.h"
 
 namespace prehensile {
 namespace {
@@ -18,19 +19,7 @@ PrismShape random_tee(RandomStream& random) {
   const double bar = random.in(0.25, 0.4) * width;
   const double length = random.in(0.7, 1.2) * width;
   const double stem = 0.5 * random.in(0.25, 0.45) * width;
-  const double left = -0.4 * length;
-  const double step = left + bar;
-  const double right = left + length;
-  const double half = 0.5 * width;
-  return {{{left, -half},
-           {step, -half},
-           {step, -stem},
-           {right, -stem},
-           {right, stem},
-           {step, stem},
-           {step, half},
-           {left, half}},
-          0.03};
+  return tee_prism(length, width, bar, stem);
 }
 
 Shape random_shape(RegraspFamily family, RandomStream& random) {

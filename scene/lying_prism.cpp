@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "scene/outline.h"
+
 namespace prehensile {
 namespace {
 
@@ -12,16 +14,6 @@ double size_of(const std::vector<Vec2>& section) {
   double size = 0.0;
   for (const Vec2& v : section) size = std::max(size, v.norm());
   return size;
-}
-
-bool is_convex(const std::vector<Vec2>& section) {
-  const std::size_t n = section.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vec2 in = section[(i + 1) % n] - section[i];
-    const Vec2 out = section[(i + 2) % n] - section[(i + 1) % n];
-    if (!(cross(in, out) > 0.0)) return false;
-  }
-  return true;
 }
 
 }  // namespace

@@ -232,6 +232,16 @@ bool is_simple(const std::vector<Vec2>& outline) {
   return true;
 }
 
+bool is_convex(const std::vector<Vec2>& outline) {
+  const std::size_t n = outline.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 in = outline[(i + 1) % n] - outline[i];
+    const Vec2 out = outline[(i + 2) % n] - outline[(i + 1) % n];
+    if (!(cross(in, out) > 0.0)) return false;
+  }
+  return true;
+}
+
 double longer_side(const std::vector<Vec2>& outline) {
   Vec2 low = outline.front();
   Vec2 high = outline.front();

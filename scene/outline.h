@@ -63,6 +63,9 @@ double depth_inside(const std::vector<Vec2>& outline, const Vec2& p_O);
 /// Whether no two edges of the polygon cross or touch beyond their shared vertex.
 bool is_simple(const std::vector<Vec2>& outline);
 
+/// Whether a polygon turns left at every vertex; counter-clockwise and simple: convex.
+bool is_convex(const std::vector<Vec2>& outline);
+
 /// Longer side of the object in the pad plane: L of the plan cost [m].
 double longer_side(const std::vector<Vec2>& outline);
 

@@ -133,114 +133,76 @@ ContactPoints polygon_points(const std::vector<Vec2>& outline, int points) {
   return result;
 }
 
-void finish(PadCell& cell) {
-  if (cell.count == 2) {
-    cell.measure = (cell.vertices[1] - cell.vertices[0]).norm();
-    cell.centroid = 0.5 * (cell.vertices[0] + cell.vertices[1]);
-  } else {
-    Vec2 moment = Vec2::Zero();
-    for (int i = 1; i + 1 < cell.count; ++i) {
-      const Vec2& o = cell.vertices[0];
-      const double area = 0.5 * cross(cell.vertices[i] - o, cell.vertices[i + 1] - o);
-      cell.measure += area;
-      moment += area / 3.0 * (o + cell.vertices[i] + cell.vertices[i + 1]);
-    }
-    cell.centroid = moment / cell.measure;
-  }
-  for (int i = 0; i < cell.count; ++i) {
-    cell.reach = std::max(cell.reach, (cell.vertices[i] - cell.centroid).norm());
-  }
-}
+/// What a profile of pressure has to know of a shape.
+struct PadSize {
+  Vec2 half = Vec2::Zero();    // [m] half sides or radius; 0 along a side that it lacks
+  double mean_square = 0.0;    // [m^2] of the distance to the finger axis, by the profile
+  Vec2 along = Vec2::UnitX();  // of its first side
+};
 
-PadCell quadrilateral(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-  PadCell cell;
-  cell.count = 4;
-  cell.vertices[0] = a;
-  cell.vertices[1] = b;
-  cell.vertices[2] = c;
-  cell.vertices[3] = d;
-  finish(cell);
-  return cell;
-}
+struct SizeOf {
+  bool hertz;
 
-/// Rings of equal area, cut by spokes; the radii make the polygon as large as the disc.
-std::vector<PadCell> disc_cells(double radius, int per_side) {
-  const int rings = per_side / 2;
-  const int spokes = 2 * per_side;
-  const double step = 2.0 * std::numbers::pi / spokes;
-  const double rim = radius * std::sqrt(step / std::sin(step));
-  std::vector<PadCell> cells;
-  for (int i = 0; i < rings; ++i) {
-    const double inner = rim * std::sqrt(static_cast<double>(i) / rings);
-    const double outer = rim * std::sqrt((i + 1.0) / rings);
-    for (int j = 0; j < spokes; ++j) {
-      const Vec2 one(std::cos(j * step), std::sin(j * step));
-      const Vec2 two(std::cos((j + 1) * step), std::sin((j + 1) * step));
-      cells.push_back(quadrilateral(inner * one, outer * one, outer * two, inner * two));
-    }
+  PadSize operator()(const DiscPad& disc) const {
+    return {Vec2::Constant(disc.radius), disc.radius * disc.radius * (hertz ? 0.4 : 0.5)};
   }
-  return cells;
-}
+  PadSize operator()(const RectanglePad& rectangle) const {
+    return with_sides(0.5 * rectangle.size);
+  }
+  PadSize operator()(const LinePad& line) const {
+    PadSize size = with_sides({0.5 * line.length, 0.0});
+    size.along = {std::cos(line.angle), std::sin(line.angle)};
+    return size;
+  }
+  PadSize operator()(const PolygonPad& polygon) const {
+    const OutlineProperties whole = properties_of(polygon.outline);
+    return {Vec2::Zero(),
+            whole.second.trace() / whole.area + whole.centroid.squaredNorm()};
+  }
+  PadSize operator()(const PointPad&) const { return {}; }
 
-std::vector<PadCell> rectangle_cells(const Vec2& size, int per_side) {
-  std::vector<PadCell> cells;
-  for (int i = 0; i < per_side; ++i) {
-    for (int j = 0; j < per_side; ++j) {
-      const auto corner = [&](int a, int b) {
-        return Vec2(size.x() * (static_cast<double>(a) / per_side - 0.5),
-                    size.y() * (static_cast<double>(b) / per_side - 0.5));
-      };
-      cells.push_back(quadrilateral(corner(i, j), corner(i + 1, j), corner(i + 1, j + 1),
-                                    corner(i, j + 1)));
-    }
+ private:
+  PadSize with_sides(const Vec2& half) const {
+    return {half, half.squaredNorm() * (hertz ? 1.0 / 4.0 : 1.0 / 3.0)};
   }
-  return cells;
-}
+};
 
-std::vector<PadCell> line_cells(const LinePad& pad, int per_side) {
-  const int segments = 4 * per_side;
-  const Vec2 d(std::cos(pad.angle), std::sin(pad.angle));
-  std::vector<PadCell> cells;
-  for (int i = 0; i < segments; ++i) {
-    PadCell cell;
-    cell.count = 2;
-    cell.vertices[0] = pad.length * (static_cast<double>(i) / segments - 0.5) * d;
-    cell.vertices[1] = pad.length * ((i + 1.0) / segments - 0.5) * d;
-    finish(cell);
-    cells.push_back(cell);
-  }
-  return cells;
-}
+struct PointsOf {
+  int points;
 
-std::vector<PadCell> polygon_cells(const std::vector<Vec2>& outline, int per_side) {
-  std::vector<PadCell> cells;
-  const auto side = static_cast<std::size_t>(per_side);
-  for (const Triangle& piece : pieces_of(outline, side * side)) {
-    PadCell& cell = cells.emplace_back();
-    cell.count = 3;
-    std::copy(piece.vertices.begin(), piece.vertices.end(), cell.vertices.begin());
-    finish(cell);
+  ContactPoints operator()(const DiscPad& disc) const {
+    return disc_points(disc.radius, points);
   }
-  return cells;
-}
+  ContactPoints operator()(const RectanglePad& rectangle) const {
+    return rectangle_points(rectangle.size, points);
+  }
+  ContactPoints operator()(const LinePad& line) const {
+    return line_points(line, points);
+  }
+  ContactPoints operator()(const PolygonPad& polygon) const {
+    return polygon_points(polygon.outline, points);
+  }
+  ContactPoints operator()(const PointPad&) const {
+    ContactPoints one;
+    one.coverage = 1.0;
+    add(one, Vec2::Zero(), 1.0);
+    return one;
+  }
+};
 
-/// Cuts the polygon by the half-plane left of a -> b (Sutherland and Hodgman 1974).
-void clip(PadCell& polygon, const Vec2& a, const Vec2& b) {
-  PadCell result;
-  const Vec2 d = b - a;
-  for (int i = 0; i < polygon.count; ++i) {
-    const Vec2& p = polygon.vertices[i];
-    const Vec2& q = polygon.vertices[(i + 1) % polygon.count];
-    const double at_p = cross(d, p - a);
-    const double at_q = cross(d, q - a);
-    if (at_p >= 0.0) result.vertices[result.count++] = p;
-    const bool closes = polygon.count > 2 || i == 0;
-    if (closes && (at_p >= 0.0) != (at_q >= 0.0)) {
-      result.vertices[result.count++] = p + at_p / (at_p - at_q) * (q - p);
-    }
+struct ReachOf {
+  double operator()(const DiscPad& disc) const { return disc.radius; }
+  double operator()(const RectanglePad& rectangle) const {
+    return 0.5 * rectangle.size.norm();
   }
-  polygon = result;
-}
+  double operator()(const LinePad& line) const { return 0.5 * line.length; }
+  double operator()(const PolygonPad& polygon) const {
+    double reach = 0.0;
+    for (const Vec2& v : polygon.outline) reach = std::max(reach, v.norm());
+    return reach;
+  }
+  double operator()(const PointPad&) const { return 0.0; }
+};
 
 }  // namespace
 
@@ -250,23 +212,10 @@ PadDensity::PadDensity(const Pad& pad, const PadPressure& pressure)
       round_(std::holds_alternative<DiscPad>(pad)),
       hertz_(pressure.profile == PressureProfile::kHertz),
       edge_load_(pressure.edge_load) {
-  if (const auto* disc = std::get_if<DiscPad>(&pad)) {
-    half_.setConstant(disc->radius);
-    mean_square_ = disc->radius * disc->radius * (hertz_ ? 0.4 : 0.5);
-    return;
-  }
-  if (const auto* polygon = std::get_if<PolygonPad>(&pad)) {
-    const OutlineProperties whole = properties_of(polygon->outline);
-    mean_square_ = whole.second.trace() / whole.area + whole.centroid.squaredNorm();
-    return;
-  }
-  if (const auto* rectangle = std::get_if<RectanglePad>(&pad)) {
-    half_ = 0.5 * rectangle->size;
-  } else if (const auto* line = std::get_if<LinePad>(&pad)) {
-    half_.x() = 0.5 * line->length;
-    along_ = {std::cos(line->angle), std::sin(line->angle)};
-  }
-  mean_square_ = half_.squaredNorm() * (hertz_ ? 1.0 / 4.0 : 1.0 / 3.0);
+  const PadSize size = std::visit(SizeOf{hertz_}, pad);
+  along_ = size.along;
+  half_ = size.half;
+  mean_square_ = size.mean_square;
 }
 
 double PadDensity::operator()(const Vec2& p) const {
@@ -296,19 +245,7 @@ Pad in_plane_equivalent(const Pad& pad) {
 }
 
 ContactPoints pad_points(const Pad& pad, const PadPressure& pressure, int points) {
-  ContactPoints result;
-  if (const auto* disc = std::get_if<DiscPad>(&pad)) {
-    result = disc_points(disc->radius, points);
-  } else if (const auto* rectangle = std::get_if<RectanglePad>(&pad)) {
-    result = rectangle_points(rectangle->size, points);
-  } else if (const auto* line = std::get_if<LinePad>(&pad)) {
-    result = line_points(*line, points);
-  } else if (const auto* polygon = std::get_if<PolygonPad>(&pad)) {
-    result = polygon_points(polygon->outline, points);
-  } else {
-    result.coverage = 1.0;
-    add(result, Vec2::Zero(), 1.0);
-  }
+  ContactPoints result = std::visit(PointsOf{points}, pad);
   const PadDensity density(pad, pressure);
   if (density.is_uniform() || result.count == 1) return result;
   double sum = 0.0;
@@ -320,76 +257,6 @@ ContactPoints pad_points(const Pad& pad, const PadPressure& pressure, int points
   return result;
 }
 
-double pad_reach(const Pad& pad) {
-  if (const auto* disc = std::get_if<DiscPad>(&pad)) return disc->radius;
-  if (const auto* rectangle = std::get_if<RectanglePad>(&pad)) {
-    return 0.5 * rectangle->size.norm();
-  }
-  if (const auto* line = std::get_if<LinePad>(&pad)) return 0.5 * line->length;
-  double reach = 0.0;
-  if (const auto* polygon = std::get_if<PolygonPad>(&pad)) {
-    for (const Vec2& v : polygon->outline) reach = std::max(reach, v.norm());
-  }
-  return reach;
-}
-
-std::vector<PadCell> pad_cells(const Pad& pad, const PadPressure& pressure,
-                               int per_side) {
-  std::vector<PadCell> cells;
-  if (const auto* disc = std::get_if<DiscPad>(&pad))
-    cells = disc_cells(disc->radius, per_side);
-  if (const auto* rectangle = std::get_if<RectanglePad>(&pad)) {
-    cells = rectangle_cells(rectangle->size, per_side);
-  }
-  if (const auto* line = std::get_if<LinePad>(&pad)) cells = line_cells(*line, per_side);
-  if (const auto* polygon = std::get_if<PolygonPad>(&pad)) {
-    cells = polygon_cells(polygon->outline, per_side);
-  }
-  const PadDensity density(pad, pressure);
-  double load = 0.0;
-  double torque = 0.0;
-  for (const PadCell& cell : cells) {
-    const double share = cell.measure * density(cell.centroid);
-    load += share;
-    torque += share * cell.centroid.norm();
-  }
-  const ContactPoints fine = pad_points(pad, pressure, 64);
-  double wanted = 0.0;
-  for (int j = 0; j < fine.count; ++j) {
-    wanted += fine.weight[j] * std::hypot(fine.x[j], fine.y[j]);
-  }
-  for (PadCell& cell : cells) {
-    cell.pressure = density(cell.centroid);
-    cell.centroid *= wanted * load / torque;
-  }
-  return cells;
-}
-
-PressedCell press(const PadCell& cell, const std::vector<Triangle>& face,
-                  const PlanarPose& X_OH) noexcept {
-  PadCell whole;
-  whole.count = cell.count;
-  for (int i = 0; i < cell.count; ++i)
-    whole.vertices[i] = transform(X_OH, cell.vertices[i]);
-  PadCell unscaled = whole;
-  finish(unscaled);
-  PressedCell pressed;
-  Vec2 moment = Vec2::Zero();
-  for (const Triangle& triangle : face) {
-    PadCell part = whole;
-    for (int i = 0; i < 3 && part.count > 0; ++i) {
-      clip(part, triangle.vertices[i], triangle.vertices[(i + 1) % 3]);
-    }
-    if (part.count < 2 || (cell.count > 2 && part.count < 3)) continue;
-    finish(part);
-    if (!(part.measure > 0.0)) continue;
-    pressed.measure += part.measure;
-    moment += part.measure * part.centroid;
-  }
-  if (pressed.measure <= 0.0) return pressed;
-  const Vec2 shift = moment / pressed.measure - unscaled.centroid;
-  pressed.centroid = cell.centroid + rotated(-X_OH.theta, shift);
-  return pressed;
-}
+double pad_reach(const Pad& pad) { return std::visit(ReachOf{}, pad); }
 
 }  // namespace prehensile

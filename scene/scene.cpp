@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <limits>
 #include <set>
 
 #include <Eigen/Cholesky>
 
+#include "scene/checker.h"
 #include "scene/contact_region.h"
 #include "scene/lying_prism.h"
 #include "scene/outline.h"
@@ -15,75 +14,8 @@
 namespace prehensile {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kLongest = 10.0;   // [m]
-constexpr double kSmallest = 1e-6;  // [m]
-constexpr std::size_t kMostVertices = 200;
 constexpr std::size_t kMostPadVertices = 40;
 constexpr std::size_t kMostPushers = 64;
-
-std::string text(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.10g", value);
-  return buffer;
-}
-
-std::string text(const Vec2& p) {
-  return std::string("[").append(text(p.x())).append(", ").append(text(p.y())) + ']';
-}
-
-/// Collects faults; a later group of checks runs only if the earlier ones passed.
-class Checker {
- public:
-  void fault(const std::string& field, const std::string& what) {
-    faults_.push_back({field, what});
-  }
-  void in_range(const std::string& field, double value, double low, double high,
-                const char* unit) {
-    if (value >= low && value <= high) return;
-    std::string what = text(value) + ": expected a number from " + text(low);
-    what += high == kInfinity ? " up" : " to " + text(high);
-    fault(field, what + (*unit ? std::string(" ") + unit : std::string()));
-  }
-  void length(const std::string& field, double value) {
-    in_range(field, value, kSmallest, kLongest, "m");
-  }
-  void place(const std::string& field, const Vec2& p) {
-    in_range(field, p.x(), -kLongest, kLongest, "m");
-    in_range(field, p.y(), -kLongest, kLongest, "m");
-  }
-  void angle(const std::string& field, double value) {
-    in_range(field, value, -100.0, 100.0, "rad");
-  }
-  bool clean() const { return faults_.empty(); }
-  std::vector<Fault> take() { return std::move(faults_); }
-
- private:
-  std::vector<Fault> faults_;
-};
-
-void check_outline(Checker& checker, const std::string& field,
-                   const std::vector<Vec2>& outline, std::size_t most = kMostVertices) {
-  if (outline.size() < 3 || outline.size() > most) {
-    checker.fault(field, std::to_string(outline.size()) + " vertices: expected 3 to " +
-                             std::to_string(most));
-    return;
-  }
-  for (const Vec2& v : outline) checker.place(field, v);
-  if (!checker.clean()) return;
-  if (!is_simple(outline)) {
-    checker.fault(field,
-                  "edges cross, touch or have no length: expected a simple polygon");
-    return;
-  }
-  const double area = properties_of(outline).area;
-  if (!(area > kSmallest * kSmallest)) {
-    checker.fault(field,
-                  "area " + text(area) +
-                      " m^2: expected vertices in counter-clockwise order around a "
-                      "positive area");
-  }
-}
 
 void check_solid(Checker& checker, const SolidShape& solid) {
   const std::string field = "object.solid";
@@ -213,13 +145,7 @@ void check_gripper(Checker& checker, const Gripper& gripper, const Object& objec
     checker.in_range("gripper.tool.position", gripper.tool.p_HT[i], -kLongest, kLongest,
                      "m");
   }
-  double norm = 0.0;
-  for (const double q : gripper.tool.q_HT) norm += q * q;
-  if (!(std::abs(norm - 1.0) < 1e-3)) {
-    checker.fault(
-        "gripper.tool.quaternion_xyzw",
-        "norm " + text(std::sqrt(norm)) + ": expected a unit quaternion x, y, z, w");
-  }
+  checker.unit_quaternion("gripper.tool.quaternion_xyzw", gripper.tool.q_HT);
 }
 
 void check_faces(Checker& checker, const std::string& path, const Pusher& pusher,
@@ -388,6 +314,8 @@ std::vector<Fault> check(const Scene& scene) {
       checker.in_range("uncertainty." + w.field, w.value, w.least, w.most, w.unit);
     }
   }
+  if (scene.limits) check_limits(checker, scene);
+  if (scene.obstacles) check_obstacles(checker, *scene.obstacles);
   if (checker.clean()) check_start_is_held(checker, scene);
   return checker.take();
 }

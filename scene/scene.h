@@ -12,35 +12,12 @@
 #include <variant>
 #include <vector>
 
+#include "scene/confines.h"
 #include "scene/frames.h"
+#include "scene/shapes.h"
 #include "scene/uncertainty.h"
 
 namespace prehensile {
-
-enum class Axis { kX, kY, kZ };
-
-/// Box, centred on the origin of O; size [m] along x, y (pad plane) and z (between jaws).
-struct BoxShape {
-  Vec3 size = Vec3::Zero();
-};
-
-/// Cylinder centred on the origin of O. `axis` kZ: held at its flat ends. `axis` kX or
-/// kY: held on its curved side, each pad touches it along a line, and it can roll.
-struct CylinderShape {
-  double radius = 0.0;  ///< [m]
-  double length = 0.0;  ///< [m]
-  Axis axis = Axis::kZ;
-};
-
-/// Straight prism over a simple polygon. `axis` kZ: along z, the polygon is the outline
-/// in the pad plane of O. `axis` kX or kY: the prism lies in the pad plane, the polygon
-/// is its convex section (lateral axis, z), see scene/lying_prism.h; the jaws hold two
-/// flat sides of it, and a support can roll it over its edges.
-struct PrismShape {
-  std::vector<Vec2> outline;  ///< [m], counter-clockwise, at least 3 vertices
-  double thickness = 0.0;     ///< [m] along the axis
-  Axis axis = Axis::kZ;
-};
 
 /// A solid body of any form, held at two flat faces that look away from each other; made
 /// from a mesh (mesh/face_pairs.h). The mid-plane between the faces is z = 0 in O.
@@ -216,11 +193,17 @@ enum class GoalTest {
   kWeightedSum,    ///< distance + characteristic_length * |angle| within the tolerance
 };
 
+enum class ThetaMeaning {
+  kAngle,   ///< any number of whole turns counts
+  kNumber,  ///< the turns made count, too: a cable hangs on the object
+};
+
 /// The wanted pose; an unset coordinate is free.
 struct Goal {
   std::optional<double> x, y;   ///< [m] of O in H
-  std::optional<double> theta;  ///< [rad] of O in H; any number of whole turns counts
-  std::optional<double> psi;    ///< [rad] roll angle; only for an object that can roll
+  std::optional<double> theta;  ///< [rad] of O in H
+  ThetaMeaning theta_is = ThetaMeaning::kAngle;
+  std::optional<double> psi;  ///< [rad] roll angle; only for an object that can roll
   double position_tolerance = 1e-3;     ///< [m], > 0
   double angle_tolerance = 0.02;        ///< [rad], > 0
   double characteristic_length = 0.01;  ///< [m], > 0: 1 rad counts like this distance
@@ -255,6 +238,8 @@ struct Scene {
   Overhang overhang = Overhang::kClip;
   Grasp start;
   std::optional<Goal> goal;
+  std::optional<GraspLimits> limits;
+  std::optional<Obstacles> obstacles;
   std::optional<CalibrationRecord> calibration;
   std::optional<Uncertainty> uncertainty;
 };

@@ -58,6 +58,16 @@ TEST(BrokenFiles, EachHasItsMessage) {
   EXPECT_GE(expected_messages().size(), 100u);
 }
 
+TEST(BrokenFiles, ScenesAndPlansAreToldApart) {
+  EXPECT_EQ(
+      message_of([] { parse_scene(R"({"version": 1, "scene_digest": "0"})", "p"); }),
+      "p: a plan file: expected a scene file");
+  for (const char* scene : {"version: 1\nobject: {}\n", "\n# a comment\nversion: 1\n"}) {
+    EXPECT_EQ(message_of([&] { parse_plan(scene, "s"); }),
+              "s: a scene file: expected a plan file, as `prehensile plan` writes it");
+  }
+}
+
 TEST(BrokenFiles, AllFaultsOfAFileAreListedUpToTwenty) {
   std::string text = "version: 1\nobject: {box: {size: [1, 1, 1]}, mass: -1}\n";
   text += "gripper: {pad: {disc: {radius: 0.1}}, friction: -1, grip_force: -1}\n";

@@ -6,10 +6,10 @@
 #include <fstream>
 #include <iterator>
 #include <string>
-#include <unistd.h>
 #include <vector>
 
 #include "io/scene_file.h"
+#include "tests/support/folder.h"
 
 namespace prehensile::testing {
 
@@ -31,28 +31,6 @@ inline std::vector<std::filesystem::path> files_below(const std::string& folder,
   std::sort(files.begin(), files.end());
   return files;
 }
-
-/// A fresh folder that is removed at the end.
-class Folder {
- public:
-  Folder() {
-    std::string name =
-        (std::filesystem::temp_directory_path() / "prehensile-XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  bool empty() const { return std::filesystem::is_empty(path_); }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// The message of the BadInput that a call throws; empty if it throws none.
 template <typename Call>

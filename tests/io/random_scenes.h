@@ -99,6 +99,67 @@ inline Uncertainty random_uncertainty(Random& random) {
   return u;
 }
 
+/// Limits that admit this start.
+inline GraspLimits random_limits(Random& random, const Grasp& start) {
+  GraspLimits limits;
+  const Vec2 p_OF = finger_in_object(start.X_HO);
+  if (random.chance(0.5)) limits.theta_low = start.X_HO.theta - random.in(0.0, 4.0);
+  if (random.chance(0.5)) limits.theta_high = start.X_HO.theta + random.in(0.0, 4.0);
+  if (random.chance(0.5)) limits.finger_low = p_OF - Vec2::Constant(random.in(0.0, 0.1));
+  if (random.chance(0.5)) limits.finger_high = p_OF + Vec2::Constant(random.in(0.0, 0.1));
+  if (random.chance(0.5)) limits.hand_low = Vec2(-1.0, random.in(-1.0, 0.0));
+  if (random.chance(0.5)) limits.hand_high = Vec2(1.0, random.in(0.0, 1.0));
+  if (random.chance(0.5)) {
+    limits.hand_angle_low = random.in(-3.0, 0.0);
+    limits.hand_angle_high = random.in(0.0, 3.0);
+  }
+  return limits;
+}
+
+inline ConvexBody random_body(Random& random, bool in_hand, int number) {
+  ConvexBody body;
+  body.name = "body " + std::to_string(number);
+  switch (random.below(in_hand ? 5 : 6)) {
+    case 0:
+      body.shape = BoxShape{{random.in(0.01, 0.1), 0.02, 0.03}};
+      break;
+    case 1:
+      body.shape = SphereShape{random.in(0.01, 0.1)};
+      break;
+    case 2:
+      body.shape = CylinderShape{0.01, random.in(0.01, 0.1), Axis::kY};
+      break;
+    case 3:
+      body.shape = CapsuleShape{0.01, random.in(0.01, 0.1), Axis::kX};
+      break;
+    case 4:
+      body.shape = PrismShape{{{0.0, 0.0}, {0.1, 0.0}, {0.0, random.in(0.01, 0.1)}},
+                              0.02,
+                              static_cast<Axis>(random.below(3))};
+      break;
+    default: {
+      const double angle = random.in(-3.0, 3.0);
+      body.shape = HalfSpaceShape{{std::cos(angle), std::sin(angle), 0.0}};
+    }
+  }
+  body.position = {random.in(-1.0, 1.0), random.in(-1.0, 1.0), random.in(-1.0, 1.0)};
+  const double half = random.in(-3.0, 3.0);
+  if (random.chance(0.5)) body.quaternion = {0.0, std::sin(half), 0.0, std::cos(half)};
+  if (random.chance(0.5)) body.turn = random.in(-3.0, 3.0);
+  return body;
+}
+
+inline Obstacles random_obstacles(Random& random) {
+  Obstacles obstacles;
+  obstacles.clearance = random.in(0.0, 0.01);
+  obstacles.approach = random.in(0.01, 0.1);
+  for (int i = random.below(3); i > 0; --i) {
+    obstacles.fixture.push_back(random_body(random, false, i));
+    obstacles.hand.push_back(random_body(random, true, i));
+  }
+  return obstacles;
+}
+
 /// A scene that `check` accepts.
 inline Scene random_scene(Random& random) {
   Scene scene;
@@ -142,6 +203,10 @@ inline Scene random_scene(Random& random) {
                           : random.below(360) * (std::numbers::pi / 180.0)};
   if (rolls) scene.start.psi = random.in(-3.0, 3.0);
   if (random.chance(0.8)) scene.goal = random_goal(random, rolls);
+  Random of_space(static_cast<std::uint64_t>(1e9 * scene.object.mass));
+  if (scene.goal) scene.goal->theta_is = static_cast<ThetaMeaning>(of_space.below(2));
+  if (of_space.chance(0.3)) scene.limits = random_limits(of_space, scene.start);
+  if (of_space.chance(0.3)) scene.obstacles = random_obstacles(of_space);
   return scene;
 }
 

@@ -281,13 +281,5 @@ TEST(Problems, PublishedGraspsAreThoseOfThePublishedConstants) {
   }
 }
 
-/// The first block of YAML in a document.
-TEST(Documentation, TheSceneInItLoads) {
-  const std::string text = text_of(kSourceTree / "docs/files.md");
-  const std::size_t begin = text.find("```yaml\n") + 8;
-  const std::string scene = text.substr(begin, text.find("```", begin) - begin);
-  EXPECT_TRUE(parse_scene(scene, "docs/files.md").scene.goal);
-}
-
 }  // namespace
 }  // namespace prehensile::testing

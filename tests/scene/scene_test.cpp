@@ -71,6 +71,59 @@ TEST(Scene, EachFaultNamesItsField) {
       {"goal", [](Scene& s) { s.goal = Goal{}; }},
       {"goal.roll_deg", [](Scene& s) { s.goal->psi = 0.1; }},
       {"goal.tolerance.position", [](Scene& s) { s.goal->position_tolerance = 0.0; }},
+      {"limits.theta_low_deg",
+       [](Scene& s) { s.limits = GraspLimits{.theta_low = 1.0, .theta_high = -1.0}; }},
+      {"limits.theta_high_deg",
+       [nan](Scene& s) { s.limits = GraspLimits{.theta_high = nan}; }},
+      {"limits.finger_low",
+       [](Scene& s) {
+         s.limits =
+             GraspLimits{.finger_low = Vec2(-0.1, 0.1), .finger_high = Vec2(0.1, -0.1)};
+       }},
+      {"limits.hand_high",
+       [nan](Scene& s) { s.limits = GraspLimits{.hand_high = Vec2(0.0, nan)}; }},
+      {"limits.hand_angle_low_deg",
+       [](Scene& s) { s.limits = GraspLimits{.hand_angle_high = 1.0}; }},
+      {"limits.hand_angle_high_deg",
+       [](Scene& s) {
+         s.limits = GraspLimits{.hand_angle_low = -4.0, .hand_angle_high = 4.0};
+       }},
+      {"start.theta_deg", [](Scene& s) { s.limits = GraspLimits{.theta_low = 0.1}; }},
+      {"start",
+       [](Scene& s) { s.limits = GraspLimits{.finger_high = Vec2(-0.01, 1.0)}; }},
+      {"obstacles.clearance",
+       [](Scene& s) { s.obstacles = Obstacles{.clearance = -1e-3}; }},
+      {"obstacles.approach",
+       [nan](Scene& s) { s.obstacles = Obstacles{.approach = nan}; }},
+      {"obstacles.fixture.0.name",
+       [](Scene& s) {
+         s.obstacles = Obstacles{.fixture = {{.name = "", .shape = SphereShape{0.1}}}};
+       }},
+      {"obstacles.fixture.0.prism.outline",
+       [](Scene& s) {
+         const PrismShape arrow{{{0, 0}, {0.2, 0.1}, {0, 0.2}, {0.1, 0.1}}, 0.1};
+         s.obstacles = Obstacles{.fixture = {{.name = "arrow", .shape = arrow}}};
+       }},
+      {"obstacles.fixture.0.half_space.normal",
+       [](Scene& s) {
+         s.obstacles = Obstacles{
+             .fixture = {{.name = "table", .shape = HalfSpaceShape{Vec3::Zero()}}}};
+       }},
+      {"obstacles.hand.0.capsule.radius",
+       [](Scene& s) {
+         s.obstacles =
+             Obstacles{.hand = {{.name = "finger", .shape = CapsuleShape{0.0, 0.1}}}};
+       }},
+      {"obstacles.hand.0.half_space",
+       [](Scene& s) {
+         s.obstacles = Obstacles{.hand = {{.name = "palm", .shape = HalfSpaceShape{}}}};
+       }},
+      {"obstacles.hand.0.position",
+       [](Scene& s) {
+         s.obstacles = Obstacles{.hand = {{.name = "finger",
+                                           .shape = SphereShape{0.01},
+                                           .position = {0.0, 0.0, 1e3}}}};
+       }},
   };
   for (const BrokenCase& broken : cases) {
     Scene scene = sound_scene();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "planner/confines.h"
+
 namespace prehensile {
 namespace {
 
@@ -21,6 +23,7 @@ constexpr int kPlaneSteps = 5;
 /// Within tolerances.
 constexpr double kUsed = 0.9;
 constexpr int kTurns = 7;
+constexpr int kWindings = 3;
 constexpr int kDirections = 8;
 
 /// 0, 1, -1, 2, -2, ... times the step.
@@ -40,7 +43,8 @@ class PlaceCollector {
   void add_angle(double theta) {
     const Vec2 kept = -rotated(theta, start_.p_OF);
     const bool both_free = !goal_.x && !goal_.y;
-    const int windings = goal_.theta ? 3 : 1;
+    const int windings =
+        goal_.theta && goal_.theta_is == ThetaMeaning::kAngle ? kWindings : 1;
     if (both_free) {
       for (int i = 0; i < kPlaneSteps * kPlaneSteps; ++i) {
         const Vec2 d{offset(i / kPlaneSteps, kPlaneStep),
@@ -84,10 +88,12 @@ class PlaceCollector {
     const Vec2 p_OF = -rotated(-theta, position);
     if (places_.count == GoalPlaces::kCapacity || !contains(model_.pad_face, p_OF))
       return;
-    GoalPlace& place = places_.places[places_.count++];
-    place.p_OF = p_OF;
-    place.count = windings;
-    place.theta = {theta, theta + 2.0 * kPi, theta - 2.0 * kPi};
+    GoalPlace place{.p_OF = p_OF};
+    for (int i = 0; i < windings; ++i) {
+      const double angle = theta + offset(i, 2.0 * kPi);
+      if (limits_admit(model_.scene, {p_OF, angle})) place.theta[place.count++] = angle;
+    }
+    if (place.count > 0) places_.places[places_.count++] = place;
   }
 
   const Model& model_;
@@ -102,9 +108,12 @@ GoalError goal_error(const Goal& goal, const Grasp& grasp) {
   const auto angle_error = [](const std::optional<double>& wanted, double angle) {
     return wanted ? std::abs(wrapped(angle - *wanted)) : 0.0;
   };
+  const bool is_number = goal.theta && goal.theta_is == ThetaMeaning::kNumber;
   return {goal.x ? std::abs(grasp.X_HO.x - *goal.x) : 0.0,
           goal.y ? std::abs(grasp.X_HO.y - *goal.y) : 0.0,
-          angle_error(goal.theta, grasp.X_HO.theta), angle_error(goal.psi, grasp.psi)};
+          is_number ? std::abs(grasp.X_HO.theta - *goal.theta)
+                    : angle_error(goal.theta, grasp.X_HO.theta),
+          angle_error(goal.psi, grasp.psi)};
 }
 
 double goal_excess(const Goal& goal, const Grasp& grasp) {
@@ -123,11 +132,17 @@ bool reaches(const Goal& goal, const Grasp& grasp) {
   return goal_excess(goal, grasp) <= 0.0;
 }
 
+double nearest_angle(const Goal& goal, double theta) {
+  if (!goal.theta) return theta;
+  if (goal.theta_is == ThetaMeaning::kNumber) return *goal.theta;
+  return theta + wrapped(*goal.theta - theta);
+}
+
 GoalPlaces goal_places(const Model& model, const Goal& goal,
                        const FlatState& start) noexcept {
   PlaceCollector collector(model, goal, start);
   if (goal.theta) {
-    collector.add_angle(start.theta + wrapped(*goal.theta - start.theta));
+    collector.add_angle(nearest_angle(goal, start.theta));
   } else {
     for (const double degrees : kAngles) {
       collector.add_angle(start.theta + degrees * kPi / 180.0);
@@ -140,7 +155,7 @@ GoalPlaces tolerated_places(const Model& model, const Goal& goal,
                             const FlatState& start) noexcept {
   if (!goal.x || !goal.y || !goal.theta) return {};
   PlaceCollector collector(model, goal, start);
-  const double middle = start.theta + wrapped(*goal.theta - start.theta);
+  const double middle = nearest_angle(goal, start.theta);
   const bool shared = goal.test == GoalTest::kWeightedSum;
   const double most =
       kUsed * (shared ? goal.position_tolerance / goal.characteristic_length

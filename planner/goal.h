@@ -14,13 +14,18 @@ namespace prehensile {
 struct GoalError {
   double x = 0.0;      ///< [m], >= 0
   double y = 0.0;      ///< [m], >= 0
-  double theta = 0.0;  ///< [rad], >= 0, to the nearest whole turn
+  double theta = 0.0;  ///< [rad], >= 0; of an angle to the nearest whole turn
   double psi = 0.0;    ///< [rad], >= 0, to the nearest whole turn
 };
 GoalError goal_error(const Goal& goal, const Grasp& grasp);
 
+/// The angle of the goal: the nearest to `theta` of all whole turns, the number where it
+/// is one, `theta` itself where the goal leaves it free [rad].
+double nearest_angle(const Goal& goal, double theta);
+
 /// A place of the finger axis at which the goal is met, with the angles that meet it
-/// there: the nearest to the start first, then one turn more to either side.
+/// there and that the limits admit: the nearest to the start first, then one turn more to
+/// either side.
 struct GoalPlace {
   Vec2 p_OF = Vec2::Zero();
   int count = 0;

@@ -15,6 +15,9 @@ enum class PushConstraint {
   kFaceEnds,      ///< the force would have to act beyond the ends of the face
   kRotation,      ///< the pushes stick, but cannot turn the object as far as needed
   kRealPads,      ///< sticks by the closed form, but not with the real pads
+  kThetaLimit,    ///< the angle of the object would leave its limits
+  kReach,         ///< the finger axis or the hand would leave its limits
+  kCollision,     ///< the hand or the object would come too near to an obstacle
   kCount
 };
 inline constexpr int kPushConstraints = static_cast<int>(PushConstraint::kCount);

@@ -1,5 +1,6 @@
-/// What is left where NLopt and Ipopt were switched off: linked with the sources that
-/// stand in for them, in every build, so that absence is tested wherever the tests run.
+/// What is left where NLopt, Ipopt and FCL were switched off: linked with the sources
+/// that stand in for them, in every build, so that absence is tested wherever the tests
+/// run.
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -7,6 +8,10 @@
 #include "mechanics/reference.h"
 #include "mechanics/solvers.h"
 #include "mechanics/spatial_reference.h"
+#include "planner/collision_bodies.h"
+#include "planner/planner.h"
+#include "planner/replay.h"
+#include "problems/published_regrasps.h"
 #include "problems/random_spatial.h"
 #include "tests/mechanics/instant_cases.h"
 #include "tests/optimisation/classic_programs.h"
@@ -48,6 +53,24 @@ TEST(BackendsAbsent, SolversAreListedWithoutThem) {
                               Solver::kSpatialPivoting}) {
     EXPECT_EQ(std::count(built.begin(), built.end(), solver), 1) << name(solver);
   }
+}
+
+TEST(BackendsAbsent, ObstaclesAreRefusedAndPlansStillChecked) {
+  EXPECT_FALSE(collisions_are_built());
+  Scene scene = published_square(0);
+  const Plan blind = plan_regrasp(prepare(scene));
+  ASSERT_TRUE(blind.usable());
+  scene.obstacles = Obstacles{.fixture = {{.name = "ball",
+                                           .shape = SphereShape{0.01},
+                                           .position = {1.0, 0.0, 0.0}}},
+                              .hand = {{.name = "palm", .shape = SphereShape{0.02}}}};
+  const Model model = prepare(scene);
+  const Plan plan = plan_regrasp(model);
+  EXPECT_EQ(plan.status, PlanStatus::kUnsupported);
+  EXPECT_NE(plan.message.find("PREHENSILE_OBSTACLES"), std::string::npos);
+  EXPECT_TRUE(replay(model, blind).agrees) << replay(model, blind).why;
+  scene.obstacles->fixture[0].position.x() = 0.05;
+  EXPECT_FALSE(replay(prepare(scene), blind).agrees);
 }
 
 }  // namespace

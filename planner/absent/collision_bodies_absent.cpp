@@ -1,0 +1,26 @@
+#include "planner/collision_bodies.h"
+
+namespace prehensile {
+
+struct CollisionBodies::Bodies {};
+
+bool collisions_are_built() { return false; }
+
+CollisionBodies::CollisionBodies(const Model& /*model*/) {}
+CollisionBodies::~CollisionBodies() = default;
+
+double CollisionBodies::hand_distance(const PlanarPose& /*X_WH*/,
+                                      double /*enough*/) const {
+  return 0.0;
+}
+
+double CollisionBodies::object_distance(const PlanarPose& /*X_WO*/,
+                                        double /*enough*/) const {
+  return 0.0;
+}
+
+double CollisionBodies::hand_reach() const { return 0.0; }
+
+std::int64_t CollisionBodies::queries() const { return 0; }
+
+}  // namespace prehensile

@@ -1,0 +1,39 @@
+/// Distances between the bodies of a scene, for the search. Names nothing of the library
+/// that computes them (FCL, where it is built in). Internal to the planner.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "mechanics/model.h"
+
+namespace prehensile {
+
+/// Whether the library is built in; without it a scene that names obstacles is refused.
+bool collisions_are_built();
+
+/// The bodies of a scene with obstacles.
+class CollisionBodies {
+ public:
+  explicit CollisionBodies(const Model& model);
+  ~CollisionBodies();
+  CollisionBodies(const CollisionBodies&) = delete;
+  CollisionBodies& operator=(const CollisionBodies&) = delete;
+
+  /// Least distance from the fixture of the hand at X_WH, or of the object at X_WO [m]; 0
+  /// where they overlap, and `enough` where it is at least that.
+  double hand_distance(const PlanarPose& X_WH, double enough) const;
+  double object_distance(const PlanarPose& X_WO, double enough) const;
+
+  /// How far from its z axis the hand reaches [m].
+  double hand_reach() const;
+
+  /// Pairs of bodies looked at so far.
+  std::int64_t queries() const;
+
+ private:
+  struct Bodies;
+  std::unique_ptr<Bodies> bodies_;
+};
+
+}  // namespace prehensile

@@ -1,0 +1,211 @@
+#include "planner/confines_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "planner/obstacle_bodies.h"
+#include "planner/placement.h"
+#include "planner/separation.h"
+
+namespace prehensile {
+namespace {
+
+/// Limits are linear along a push, so that its ends would do.
+constexpr int kSamples = 9;
+
+bool is_beyond(double value, const std::optional<double>& low,
+               const std::optional<double>& high) {
+  return (low && !(value >= *low - kLimitTolerance)) ||
+         (high && !(value <= *high + kLimitTolerance));
+}
+
+bool is_beyond(const Vec2& p, const std::optional<Vec2>& low,
+               const std::optional<Vec2>& high) {
+  return (low && !(p.array() >= low->array() - kLimitTolerance).all()) ||
+         (high && !(p.array() <= high->array() + kLimitTolerance).all());
+}
+
+/// The angle from the lower limit up, by less than a turn.
+bool is_beyond_angles(double angle, double low, double high) {
+  const double turn = 2.0 * std::numbers::pi;
+  double above = std::fmod(angle - low, turn);
+  if (above < 0.0) above += turn;
+  return above > high - low + kLimitTolerance && above < turn - kLimitTolerance;
+}
+
+std::string grasp_fault(const GraspLimits& limits, const PlanarPose& X_HO) {
+  if (is_beyond(X_HO.theta, limits.theta_low, limits.theta_high)) {
+    return "the angle of the object leaves its limits";
+  }
+  if (is_beyond(finger_in_object(X_HO), limits.finger_low, limits.finger_high)) {
+    return "the finger axis leaves its limits in the object";
+  }
+  return {};
+}
+
+std::string hand_fault(const GraspLimits& limits, const PlanarPose& X_WH,
+                       const Vec2& away) {
+  const Vec2 p = translation(X_WH);
+  if (is_beyond(p, limits.hand_low, limits.hand_high)) {
+    return "the hand leaves its limits";
+  }
+  if (is_beyond(p + away, limits.hand_low, limits.hand_high)) {
+    return "the hand leaves its limits before or after";
+  }
+  if (limits.hand_angle_low &&
+      is_beyond_angles(X_WH.theta, *limits.hand_angle_low, *limits.hand_angle_high)) {
+    return "the hand turns beyond its limits";
+  }
+  return {};
+}
+
+bool rolls(const PlannedPush& planned) {
+  return std::holds_alternative<Roll>(planned.push);
+}
+
+const PushContact& contact_of(const Model& model, const PlannedPush& planned) {
+  return model.contacts[static_cast<std::size_t>(contact_of(planned.push))];
+}
+
+PlanarPose pose_at(const PlannedPush& planned, double s) {
+  if (rolls(planned)) return planned.start.X_HO;
+  return pusher_pose(as_linear(planned.push), planned.start.X_HO, s);
+}
+
+PlanarPose object_in_world(const Model& model, const PlannedPush& planned) {
+  const double place = rolls(planned) ? 0.0 : as_linear(planned.push).place;
+  return object_at_pusher(model, contact_of(model, planned), place);
+}
+
+std::string limits_fault(const Model& model, const PlannedPush& planned) {
+  const GraspLimits& limits = *model.scene.limits;
+  const PushContact& contact = contact_of(model, planned);
+  const PlanarPose X_WO = object_in_world(model, planned);
+  const double approach = model.scene.obstacles.value_or(Obstacles{}).approach;
+  const Vec2 away = approach * rotated(X_WO.theta, contact.n);
+  for (int i = 0; i < kSamples; ++i) {
+    const double s = static_cast<double>(i) / (kSamples - 1);
+    const PlanarPose X_HO = pose_at(planned, s);
+    std::string fault = grasp_fault(limits, X_HO);
+    if (fault.empty()) fault = hand_fault(limits, compose(X_WO, inverse(X_HO)), away);
+    if (!fault.empty()) return fault;
+  }
+  return grasp_fault(limits, planned.end.X_HO);
+}
+
+/// A frame on its way in W, at heights.
+struct Moving {
+  PlanarPose pose;
+  double z = 0.0;
+};
+
+/// Looks for collisions of one plan.
+class CollisionCheck {
+ public:
+  explicit CollisionCheck(const Model& model)
+      : model_(model), obstacles_(*model.scene.obstacles), object_(object_bodies(model)) {
+    for (const ConvexBody& body : obstacles_.hand) {
+      reach_ = std::max(reach_, reach_about_z(body));
+    }
+  }
+
+  std::string fault(const PlannedPush& planned) const {
+    const PushContact& contact = contact_of(model_, planned);
+    const PlanarPose X_WO = object_in_world(model_, planned);
+    const Vec2 n = rotated(X_WO.theta, contact.n);
+    const auto* roll = std::get_if<Roll>(&planned.push);
+    const double rise = roll ? -roll->travel : 0.0;
+    const auto hand = [&](double s, double off) {
+      return Moving{moved(compose(X_WO, inverse(pose_at(planned, s))), off * n),
+                    s * rise};
+    };
+    const auto object = [&](double s, double off) {
+      return Moving{moved(X_WO, (kTouch + off) * n), s * rise};
+    };
+    if (hits(obstacles_.hand, obstacles_.clearance, way(planned),
+             [&](double s) { return hand(s, 0.0); })) {
+      return "the hand comes too near to an obstacle";
+    }
+    if (hits(object_, 0.0, std::abs(rise), [&](double s) { return object(s, 0.0); })) {
+      return "the object hits an obstacle";
+    }
+    for (const double end : {0.0, 1.0}) {
+      const std::string when = end == 0.0 ? "approaches" : "retreats";
+      if (hits(obstacles_.hand, obstacles_.clearance, obstacles_.approach,
+               [&](double s) { return hand(end, s * obstacles_.approach); })) {
+        return "the hand comes too near to an obstacle while it " + when;
+      }
+      if (hits(object_, 0.0, obstacles_.approach,
+               [&](double s) { return object(end, s * obstacles_.approach); })) {
+        return "the object hits an obstacle while the hand " + when;
+      }
+    }
+    return {};
+  }
+
+ private:
+  static PlanarPose moved(const PlanarPose& pose, const Vec2& by) {
+    return {pose.x + by.x(), pose.y + by.y(), pose.theta};
+  }
+
+  /// At least how far any point of the hand moves during a push [m].
+  double way(const PlannedPush& planned) const {
+    if (const auto* roll = std::get_if<Roll>(&planned.push)) {
+      return std::abs(roll->travel);
+    }
+    const LinearPush push = as_linear(planned.push);
+    return push.travel + reach_ * std::abs(push.turn);
+  }
+
+  /// Whether bodies that go this way [m] come nearer to the fixture than they may.
+  template <class Path>
+  bool hits(const std::vector<ConvexBody>& bodies, double clearance, double length,
+            const Path& path) const {
+    for (double done = 0.0;;) {
+      const double s = length > 0.0 ? done / length : 0.0;
+      const double room =
+          distance(bodies, path(s)) - clearance + 2.0 * kClearanceTolerance;
+      if (!(room > kClearanceTolerance)) return true;
+      done += room;
+      if (done > length) return false;
+    }
+  }
+
+  double distance(const std::vector<ConvexBody>& bodies, const Moving& frame) const {
+    double least = std::numeric_limits<double>::infinity();
+    const Eigen::Isometry3d X_W = in_space(frame.pose, frame.z);
+    for (const ConvexBody& body : bodies) {
+      const PlacedBody placed{&body, X_W * pose_of(body)};
+      for (const ConvexBody& fixed : obstacles_.fixture) {
+        least = std::min(least, separation(placed, {&fixed, pose_of(fixed)}));
+      }
+    }
+    return least;
+  }
+
+  const Model& model_;
+  const Obstacles& obstacles_;
+  std::vector<ConvexBody> object_;
+  double reach_ = 0.0;
+};
+
+}  // namespace
+
+std::string confinement_fault(const Model& model,
+                              const std::vector<PlannedPush>& pushes) {
+  if (!model.scene.limits && !model.scene.obstacles) return {};
+  std::optional<CollisionCheck> collisions;
+  if (model.scene.obstacles) collisions.emplace(model);
+  for (std::size_t i = 0; i < pushes.size(); ++i) {
+    std::string fault;
+    if (model.scene.limits) fault = limits_fault(model, pushes[i]);
+    if (fault.empty() && collisions) fault = collisions->fault(pushes[i]);
+    if (!fault.empty()) return "push " + std::to_string(i + 1) + ": " + fault;
+  }
+  return {};
+}
+
+}  // namespace prehensile

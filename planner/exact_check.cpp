@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "planner/confines_check.h"
+#include "planner/ring_pads.h"
 #include "planner/roll_step.h"
 #include "planner/space_margin.h"
 #include "planner/steering.h"
@@ -51,7 +53,9 @@ double push_slack(const Model& model, const Grasp& start, const Push& push,
   const double parts =
       std::max(linear.travel / kPointTravel, std::abs(linear.turn) / kPointTurn);
   const int points = static_cast<int>(std::clamp(std::ceil(parts) + 1.0, 3.0, 50.0));
-  double slack = std::numeric_limits<double>::infinity();
+  double slack = has_ring_pads(model) ? ring_slack(model, contact, p_OF, linear.e,
+                                                   linear.travel, linear.turn)
+                                      : std::numeric_limits<double>::infinity();
   for (int i = 0; i < points; ++i) {
     const double s = static_cast<double>(i) / (points - 1);
     const PlanarPose X_HO = pose_from_finger(p_OF - s * linear.travel * linear.e,
@@ -122,6 +126,11 @@ bool check_exactly(const Model& model, const TransitionOptions& options, Plan& p
     if (fault.empty()) fault = space_margin_fault(model, push, plan.margin, options);
     if (fault.empty()) continue;
     if (why) *why = "push " + std::to_string(i + 1) + ": " + fault;
+    return false;
+  }
+  const std::string fault = confinement_fault(model, plan.pushes);
+  if (!fault.empty()) {
+    if (why) *why = fault;
     return false;
   }
   return plan.margin.grasp + plan.margin.tilt == 0.0 || stays_on_object(model, plan, why);

@@ -25,8 +25,8 @@ double travel_in_pad_plane(const Push& push);
 
 /// Fills force, slack, certificate and error estimate of every push and counts instants.
 /// True if each push completes without slip, certified, with slack >= 0 over plan.margin,
-/// and ends within 1e-6 of where the plan says, also at half the step; else `why` names
-/// the first that does not.
+/// and ends within 1e-6 of where the plan says, also at half the step, within limits and
+/// clear of obstacles; else `why` names the first that does not.
 bool check_exactly(const Model& model, const TransitionOptions& options, Plan& plan,
                    std::string* why);
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "planner/chain.h"
+#include "planner/confines.h"
 #include "planner/goal.h"
 #include "planner/roll_step.h"
 
@@ -83,7 +85,7 @@ Grasp member_near(const Goal& goal, const Grasp& grasp) {
   Grasp member = grasp;
   member.X_HO.x = goal.x.value_or(grasp.X_HO.x);
   member.X_HO.y = goal.y.value_or(grasp.X_HO.y);
-  if (goal.theta) member.X_HO.theta += wrapped(*goal.theta - grasp.X_HO.theta);
+  member.X_HO.theta = nearest_angle(goal, grasp.X_HO.theta);
   member.psi += roll_needed(goal, grasp.psi);
   return member;
 }
@@ -97,6 +99,12 @@ FlatBox box_around(const Model& model, const Grasp& start, const Goal& goal) {
     box.low.p_OF = box.low.p_OF.cwiseMin(corner);
     box.high.p_OF = box.high.p_OF.cwiseMax(corner);
   }
+  const GraspLimits limits = model.scene.limits.value_or(GraspLimits{});
+  const TurnWindow window = theta_window(model.scene);
+  box.low.theta = std::max(box.low.theta, window.low);
+  box.high.theta = std::min(box.high.theta, window.high);
+  if (limits.finger_low) box.low.p_OF = box.low.p_OF.cwiseMax(*limits.finger_low);
+  if (limits.finger_high) box.high.p_OF = box.high.p_OF.cwiseMin(*limits.finger_high);
   return box;
 }
 
@@ -122,6 +130,7 @@ bool PushSteps::is_valid(const PushState& state) const noexcept {
       !std::isfinite(state.psi)) {
     return false;
   }
+  if (!limits_admit(model().scene, state.flat)) return false;
   if (!pads_on_object(model(), pose_from_finger(p_OF, state.flat.theta))) return false;
   if (model().contacts.empty()) return true;
   return std::ranges::any_of(model().contacts, [&](const PushContact& contact) {
@@ -311,7 +320,9 @@ bool PushSteps::may_stick(const PushState& from,
   return !slopes_of(search_, control.letter, from.flat.p_OF, e).empty();
 }
 
+/// Looks for collisions cost far more than a propagation without them.
 bool PushSteps::counted() noexcept {
+  work_.other += std::exchange(stick_tests_.other, 0);
   if (work_.spent()) return false;
   ++work_.propagations;
   return true;
@@ -338,7 +349,8 @@ std::optional<PushStep> PushSteps::joined(const PushState& from, const PushState
 bool PushSteps::move_works(int contact, const FlatState& from,
                            const FlatState& to) noexcept {
   return move_sticks(search_, contact, from, to, stick_tests_) &&
-         exact_slack(search_, {contact, from, to}, stick_tests_) >= -kStickTolerance;
+         exact_slack(search_, {contact, from, to}, stick_tests_) >= -kStickTolerance &&
+         is_confined(search_, {contact, from, to}, stick_tests_);
 }
 
 int PushSteps::contact_that_moves(const FlatState& from, const FlatState& to,

@@ -32,7 +32,7 @@ Grasp grasp_of(const PushState& state);
 Grasp member_near(const Goal& goal, const Grasp& grasp);
 
 /// Where sampling planners search: the outline's bounding box; angles half a turn beyond
-/// the start and the nearest goal.
+/// the start and the nearest goal; both as far as the limits of the scene reach.
 struct FlatBox {
   FlatState low, high;
 };

@@ -1,0 +1,122 @@
+#include "planner/meet_end.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <Eigen/LU>
+
+namespace prehensile {
+namespace {
+
+constexpr double kMet = 2e-7;  // [m], angles times c
+constexpr int kMostSteps = 12;
+constexpr double kProbe = 1e-4;   // change for a derivative, as a share of what it is of
+constexpr double kLongest = 0.3;  // step, as such a share
+
+/// A push by a point as three numbers: turn of its direction [rad], and changes of travel
+/// and place as shares of `length`.
+struct Aim {
+  LinearPush first;
+  double length = 1.0;           ///< [m]
+  double low = 0.0, high = 0.0;  ///< [m] places on the face
+
+  std::optional<LinearPush> at(const Vec3& u) const {
+    LinearPush push = first;
+    push.e = rotated(u[0], first.e);
+    push.travel += u[1] * length;
+    push.place += u[2] * length;
+    const bool sound = push.travel > 0.0 && push.place >= low && push.place <= high;
+    return sound ? std::optional(push) : std::nullopt;
+  }
+};
+
+class EndOfPush {
+ public:
+  EndOfPush(const Model& model, const TransitionOptions& options,
+            const PlannedPush& planned, const Aim& aim, std::int64_t& instants)
+      : model_(model),
+        options_(options),
+        planned_(planned),
+        aim_(aim),
+        instants_(instants) {}
+
+  /// By how much the end is missed [m]; nothing where the push does not get to an end.
+  std::optional<Vec3> missed(const Vec3& u) const {
+    const std::optional<LinearPush> push = aim_.at(u);
+    if (!push) return std::nullopt;
+    const Transition done = apply(model_, planned_.start, *push, options_);
+    instants_ += done.instants;
+    if (!done.completed()) return std::nullopt;
+    const PlanarPose& end = done.end.X_HO;
+    const PlanarPose& wanted = planned_.end.X_HO;
+    return Vec3(end.x - wanted.x, end.y - wanted.y,
+                model_.c * (end.theta - wanted.theta));
+  }
+
+ private:
+  const Model& model_;
+  const TransitionOptions& options_;
+  const PlannedPush& planned_;
+  const Aim& aim_;
+  std::int64_t& instants_;
+};
+
+/// Columns: what a change of each number does to the end.
+std::optional<Eigen::Matrix3d> slopes(const EndOfPush& end, const Vec3& u,
+                                      const Vec3& missed) {
+  Eigen::Matrix3d slope;
+  for (int k = 0; k < 3; ++k) {
+    std::optional<Vec3> there;
+    double change = kProbe;
+    for (const double sign : {1.0, -1.0}) {
+      change = sign * kProbe;
+      if ((there = end.missed(u + change * Vec3::Unit(k)))) break;
+    }
+    if (!there) return std::nullopt;
+    slope.col(k) = (*there - missed) / change;
+  }
+  return slope;
+}
+
+/// The numbers with which the push meets its end, if any are found.
+std::optional<Vec3> aimed(const EndOfPush& end) {
+  Vec3 u = Vec3::Zero();
+  std::optional<Vec3> missed = end.missed(u);
+  if (!missed) return std::nullopt;
+  std::optional<Eigen::Matrix3d> slope = slopes(end, u, *missed);
+  for (int i = 0; slope && i < kMostSteps; ++i) {
+    if (missed->norm() <= kMet) return u;
+    Vec3 step = -slope->fullPivLu().solve(*missed);
+    if (!step.allFinite()) return std::nullopt;
+    if (const double most = step.cwiseAbs().maxCoeff(); most > kLongest) {
+      step *= kLongest / most;
+    }
+    std::optional<Vec3> there;
+    while (!(there = end.missed(u + step)) || there->norm() > 2.0 * missed->norm()) {
+      step *= 0.5;
+      if (step.norm() < 1e-9) return std::nullopt;
+    }
+    *slope += (*there - *missed - *slope * step) * step.transpose() / step.squaredNorm();
+    u += step;
+    missed = there;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void meet_ends(const Model& model, const TransitionOptions& options, Plan& plan) {
+  for (PlannedPush& planned : plan.pushes) {
+    auto* const push = std::get_if<LinearPush>(&planned.push);
+    if (!push || push->travel == 0.0) continue;
+    const PushContact& contact = model.contacts[static_cast<std::size_t>(push->contact)];
+    if (!contact.is_point) continue;
+    const double half_face = 0.5 * (contact.b - contact.a).norm();
+    const Aim aim{*push, std::max(push->travel, model.c), -half_face, half_face};
+    const EndOfPush end(model, options, planned, aim, plan.instants);
+    if (const std::optional<Vec3> u = aimed(end)) *push = *aim.at(*u);
+  }
+}
+
+}  // namespace prehensile

@@ -1,0 +1,16 @@
+/// Pushes by a point, corrected. An object turns freely about a point, so where a push
+/// ends is what the real pads make of it, not what the search took for it: the push is
+/// aimed again, by the exact mechanics, until it ends where the plan says.
+#pragma once
+
+#include "planner/plan.h"
+
+namespace prehensile {
+
+/// Newton's method with secant updates (Broyden, Math. Comp. 19 (1965) 577-593) over
+/// direction, travel and place of each push by a point that ends elsewhere. Three numbers
+/// for the three of a pose: where it finds no such push, nearby, it leaves the one that
+/// is there, for `check_exactly` to refuse. Counts instants.
+void meet_ends(const Model& model, const TransitionOptions& options, Plan& plan);
+
+}  // namespace prehensile

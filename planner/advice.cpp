@@ -39,6 +39,8 @@ class Adviser {
     try_grip_forces();
     try_tolerances();
     try_free_angle();
+    try_limits();
+    try_obstacles();
     try_pushers();
     return std::move(changes_);
   }
@@ -135,6 +137,69 @@ class Adviser {
     works(scene, {"a goal without an angle (leave goal.theta out)"});
   }
 
+  void try_limits() {
+    if (model_.scene.goal->theta_is == ThetaMeaning::kNumber) {
+      Scene scene = model_.scene;
+      scene.goal->theta_is = ThetaMeaning::kAngle;
+      works(scene, {"a goal whose turns do not count", "--set goal.theta_is=angle"});
+    }
+    if (!model_.scene.limits) return;
+    try_wider_theta();
+    const auto without = [&](const char* what, const auto& change) {
+      Scene scene = model_.scene;
+      change(*scene.limits);
+      works(scene, {what});
+    };
+    const GraspLimits& limits = *model_.scene.limits;
+    if (limits.finger_low || limits.finger_high) {
+      without(
+          "no limits on the finger axis (leave limits.finger_low and finger_high out)",
+          [](GraspLimits& l) { l.finger_low = l.finger_high = std::nullopt; });
+    }
+    if (limits.hand_low || limits.hand_high || limits.hand_angle_low) {
+      without("no limits on the hand in the world (leave limits.hand_... out)",
+              [](GraspLimits& l) {
+                l.hand_low = l.hand_high = std::nullopt;
+                l.hand_angle_low = l.hand_angle_high = std::nullopt;
+              });
+    }
+  }
+
+  void try_wider_theta() {
+    constexpr double kDegree = std::numbers::pi / 180.0;
+    const GraspLimits& limits = *model_.scene.limits;
+    if (!limits.theta_low && !limits.theta_high) return;
+    for (const double degrees : {15.0, 45.0, 90.0, 180.0, 360.0}) {
+      Scene scene = model_.scene;
+      ProposedChange change{"limits on theta wider by " + number(degrees) + " deg"};
+      const auto widen = [&](std::optional<double>& limit, double by, const char* field) {
+        if (!limit) return;
+        *limit += by * kDegree;
+        change.option += change.option.empty() ? "--set " : " --set ";
+        change.option += std::string(field) + '=' + number(*limit / kDegree);
+      };
+      widen(scene.limits->theta_low, -degrees, "limits.theta_low_deg");
+      widen(scene.limits->theta_high, degrees, "limits.theta_high_deg");
+      if (works(scene, std::move(change))) return;
+    }
+  }
+
+  /// Without one of the bodies of the fixture, or else with no clearance.
+  void try_obstacles() {
+    if (!model_.scene.obstacles) return;
+    const std::vector<ConvexBody>& fixture = model_.scene.obstacles->fixture;
+    for (std::size_t i = 0; i < fixture.size(); ++i) {
+      Scene scene = model_.scene;
+      std::vector<ConvexBody>& bodies = scene.obstacles->fixture;
+      bodies.erase(bodies.begin() + static_cast<std::ptrdiff_t>(i));
+      works(scene, {"the body " + fixture[i].name + " of the fixture taken away"});
+    }
+    if (model_.scene.obstacles->clearance <= 0.0) return;
+    Scene scene = model_.scene;
+    scene.obstacles->clearance = 0.0;
+    works(scene, {"no clearance of the hand", "--set obstacles.clearance=0"});
+  }
+
   /// One flat pusher more, against each face that none touches yet.
   void try_pushers() {
     for (std::size_t i = 0; i < model_.faces.size(); ++i) {
@@ -210,7 +275,8 @@ std::string paragraph(const Plan& plan, const Explanation& explanation) {
   if (explanation.changes.empty()) {
     return text +
            " None of the changes that were tried (frictions, grip force, "
-           "tolerances, angle of the goal, one pusher more) makes it solvable.";
+           "tolerances, angle of the goal, limits and obstacles of the scene, one pusher "
+           "more) makes it solvable.";
   }
   text += " It can be solved with ";
   for (std::size_t i = 0; i < explanation.changes.size(); ++i) {

@@ -12,9 +12,10 @@ struct AdviceOptions {
 
 /// What stopped the search most, in one paragraph, and the smallest change of each kind
 /// that makes the scene solvable: of the margin, of the frictions of the pushers, of the
-/// grip force, of the goal's tolerances, of its angle, one pusher more. `options` are
-/// those of the plan. Deterministic; ends early when options.stop is set, with the
-/// changes found until then. For plans that are not usable, or nominal only.
+/// grip force, of the goal's tolerances, of its angle, of limits and obstacles, one
+/// pusher more. `options` are those of the plan. Deterministic; ends early when
+/// options.stop is set, with the changes found until then. For plans that are not usable,
+/// or nominal only.
 Explanation explain(const Model& model, const Plan& plan, const PlanOptions& options,
                     const AdviceOptions& advice = {});
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "planner/angle_scan.h"
+#include "planner/goal.h"
 #include "planner/planner.h"
 #include "planner/word_bound.h"
 
@@ -34,14 +35,16 @@ class GoalSet {
       : goal_(goal),
         p_OF_(finger_in_object(start.X_HO)),
         theta_(start.X_HO.theta),
-        nearest_(theta_ + wrapped(goal.theta.value_or(theta_) - theta_)),
+        nearest_(nearest_angle(goal, theta_)),
+        is_number_(goal.theta && goal.theta_is == ThetaMeaning::kNumber),
         c_(model.c) {}
 
   /// Least of f over the angles of the goal set.
   template <class Function>
   double least(double slope, const Function& f) const {
     if (!goal_.theta) return scan({theta_ - kPi, theta_ + kPi}, slope, f);
-    const double slack = std::min(angle_slack(goal_), kPi);
+    const double slack = slack_of_angle();
+    if (is_number_) return scan({nearest_ - slack, nearest_ + slack}, slope, f);
     const double other = nearest_ + (nearest_ <= theta_ ? 2.0 * kPi : -2.0 * kPi);
     return std::min(scan({nearest_ - slack, nearest_ + slack}, slope, f),
                     scan({other - slack, other + slack}, slope, f));
@@ -52,7 +55,8 @@ class GoalSet {
     if (goal_.test != GoalTest::kWeightedSum || !goal_.theta) {
       return goal_.position_tolerance;
     }
-    const double off = std::abs(wrapped(theta - *goal_.theta));
+    const double off =
+        std::abs(is_number_ ? theta - nearest_ : wrapped(theta - *goal_.theta));
     return std::max(0.0, goal_.position_tolerance - goal_.characteristic_length * off);
   }
 
@@ -98,7 +102,8 @@ class GoalSet {
     WordGoal goal;
     goal.place_H = {*goal_.x, *goal_.y};
     goal.any_turn = !goal_.theta;
-    const double slack = std::min(angle_slack(goal_), kPi);
+    const double slack = slack_of_angle();
+    goal.one_winding = is_number_;
     goal.turn_low = nearest_ - slack;
     goal.turn_high = nearest_ + slack;
     const bool square = goal_.test == GoalTest::kPerCoordinate;
@@ -115,9 +120,16 @@ class GoalSet {
     return least_over_angle(range.low, range.high, slope, kAccuracy, f);
   }
 
+  /// Of an angle no more than half a turn: beyond it lies the next winding.
+  double slack_of_angle() const {
+    return is_number_ ? angle_slack(goal_) : std::min(angle_slack(goal_), kPi);
+  }
+
   const Goal& goal_;
   Vec2 p_OF_;
-  double theta_, nearest_, c_;
+  double theta_, nearest_;
+  bool is_number_;
+  double c_;
 };
 
 /// For an isotropic pad the friction force points along the motion and is F phi, phi
@@ -189,24 +201,38 @@ constexpr double kToProveAgain = 1e-3;
 /// Rounding of a proof of several steps, relative.
 constexpr double kProofRounding = 1e-7;
 
-/// A bound of at most `target`; 0 where the words of contacts say nothing. Counts
-/// `nodes` down.
-double prove(const Model& model, const Grasp& start, const Goal& goal, double target,
-             std::int64_t& nodes) {
-  const GoalSet set(model, start, goal);
-  const double roll = roll_cost(model, start, goal);
-  WordQuestion question;
-  question.straight = set.distance();
-  if (!set.fixes_place() || question.straight <= 0.0) return 0.0;
-  const RunLaws laws = run_laws(model);
-  if (laws.empty()) return 0.0;
-  question.p_OF = finger_in_object(start.X_HO);
-  question.theta = start.X_HO.theta;
-  question.goal = set.for_words();
-  const double wanted = (target - roll) * (1.0 + kProofRounding);
-  const double proved = word_bound(word_scene(model, laws), question, wanted, nodes);
-  return roll + proved * (1.0 - kProofRounding);
-}
+/// Bounds from the words of contacts, for one question.
+class Prover {
+ public:
+  Prover(const Model& model, const Grasp& start, const Goal& goal)
+      : roll_(roll_cost(model, start, goal)) {
+    const GoalSet set(model, start, goal);
+    question_.straight = set.distance();
+    if (!set.fixes_place() || question_.straight <= 0.0) return;
+    laws_ = run_laws(model);
+    if (laws_.empty()) return;
+    scene_ = word_scene(model, laws_);
+    question_.p_OF = finger_in_object(start.X_HO);
+    question_.theta = start.X_HO.theta;
+    question_.goal = set.for_words();
+  }
+  Prover(const Prover&) = delete;
+  Prover& operator=(const Prover&) = delete;
+
+  /// A bound of at most `target`; 0 where the words of contacts say nothing. Counts
+  /// `nodes` down.
+  double prove(double target, std::int64_t& nodes) const {
+    if (laws_.empty()) return 0.0;
+    const double wanted = (target - roll_) * (1.0 + kProofRounding);
+    return roll_ + word_bound(scene_, question_, wanted, nodes) * (1.0 - kProofRounding);
+  }
+
+ private:
+  double roll_;
+  RunLaws laws_;
+  WordScene scene_;
+  WordQuestion question_;
+};
 
 }  // namespace
 
@@ -232,10 +258,12 @@ double guide_bound(const Model& model, const Grasp& start, const Goal& goal) {
 LowerBound lower_bound(const Model& model, const Grasp& start, const Goal& goal,
                        double cost, std::int64_t nodes) {
   LowerBound bound{.value = trivial_bound(model, start, goal)};
+  if (!(bound.value < cost / kGapAsked)) return bound;
+  const Prover prover(model, start, goal);
   for (const double target : {cost / kGapAsked, cost}) {
     if (!(bound.value < target) || bound.nodes >= nodes) break;
     std::int64_t left = nodes - bound.nodes;
-    double proved = prove(model, start, goal, target, left);
+    double proved = prover.prove(target, left);
     const bool done = proved >= target * (1.0 - kAcceptance);
     if (!done) proved -= kToProveAgain * target;
     bound.nodes = nodes - left;
@@ -252,7 +280,7 @@ bool bound_holds(const Model& model, const Grasp& start, const Goal& goal, doubl
                  std::int64_t nodes) {
   const double accepted = claimed * (1.0 - kAcceptance);
   return trivial_bound(model, start, goal) >= accepted ||
-         prove(model, start, goal, claimed, nodes) >= accepted;
+         Prover(model, start, goal).prove(claimed, nodes) >= accepted;
 }
 
 }  // namespace prehensile

@@ -31,11 +31,13 @@ struct LowerBound {
 
 /// A bound of at most `cost` that can be proved with this work: first it is tried to
 /// prove that no plan costs less than `cost` / 1.1, then that none costs less than
-/// `cost`. Nothing is tried where the trivial bound is within 10 % of the cost. By branch
-/// and bound over the sequences of contacts and the places where they switch
-/// (word_bound.h). Trivial where the goal leaves a coordinate of the place free, where
-/// the pads are not whole discs wherever they are, and where pushes need the mechanics in
-/// space. Deterministic.
+/// `cost`. Nothing is tried where the trivial bound is within 10 % of the cost. By a
+/// convex program for one placement (run_bound.h), and by branch and bound over the
+/// sequences of contacts and the places where they switch (word_bound.h). Over round pads
+/// it is a bound for plans that stick with their rings (ring_pads.h), as every plan has
+/// to. Trivial where the goal leaves a coordinate of the place free, where the pads are
+/// not whole discs wherever they are, and where pushes need the mechanics in space.
+/// Deterministic.
 LowerBound lower_bound(const Model& model, const Grasp& start, const Goal& goal,
                        double cost, std::int64_t nodes = kBoundNodes);
 

@@ -22,24 +22,31 @@ struct Edge {
   double G, G_other;
 };
 
+using Cells = std::vector<SectionCell>;
+
 /// Least angle of a force from the edge for which w.f >= G is possible.
 double lean(double G, double w, const SectionCell& cell) {
+  if (G == 0.0) return 0.0;
   const double force =
       G > 0.0 ? std::hypot(1.0, cell.deviation) * cell.drag_high / cell.sigma_low
               : cell.drag_low / cell.sigma_high;
   return std::asin(std::clamp(G / (w * force), -1.0, 1.0));
 }
 
+/// Gravity may let the force pass round behind the cone, from edge to edge.
+bool passes_behind(const Edge& edge, double from, double other) {
+  return from + other <= -2.0 * edge.half_angle;
+}
+
 /// The least of w'.e / sigma for an edge w' of the widened cone over all motions that the
 /// two edges allow. The force is inside its edge by at least lean(G), and no farther from
 /// it than the other edge allows; the motion is within the deviation of the force.
-double least_advance(const std::vector<SectionCell>& section, const Edge& edge) {
+double least_advance(const Cells& cells, const Edge& edge) {
   double least = kInfinity;
-  for (const SectionCell& cell : section) {
+  for (const SectionCell& cell : cells) {
     const double from = lean(edge.G, edge.w, cell);
     const double other = lean(edge.G_other, edge.w, cell);
-    // Gravity may let the force pass round behind the cone, from edge to edge.
-    const bool behind = from + other <= -2.0 * edge.half_angle;
+    const bool behind = passes_behind(edge, from, other);
     const double to =
         behind ? kPi - from : std::min(kPi - from, 2.0 * edge.half_angle - other);
     const double deviation = std::atan(cell.deviation);
@@ -52,47 +59,125 @@ double least_advance(const std::vector<SectionCell>& section, const Edge& edge) 
         least, edge.w_wide * sine / (sine < 0.0 ? cell.sigma_low : cell.sigma_high));
   }
   // Turning on the spot, beyond the cells, gravity may drag the object out of the cone.
-  const double beyond = edge.w_wide / section.back().sigma_high;
+  const double beyond = edge.w_wide / cells.back().sigma_high;
   return edge.G < 0.0 ? std::min(least, -beyond) : least;
 }
 
-/// Greatest slack of an end per dT with the finger axis at this distance from it.
-/// side +1: the end that bounds dtheta from below; g [m]: moment of gravity about it.
-double greatest_slack(const std::vector<SectionCell>& section, double c, double side,
-                      double g, double distance) {
-  double greatest = -kInfinity;
-  for (const SectionCell& cell : section) {
-    const double turning = side > 0.0 ? cell.turning_high : -cell.turning_low;
-    const double weight = -side * g / (side * g > 0.0 ? cell.drag_high : cell.drag_low);
-    greatest = std::max(
-        greatest, c * turning + distance * cell.deviation / cell.sigma_low + weight);
+/// How far along the motion, at most, the direction of a motion leans from the normal:
+/// the least of (1 - e.n / cos(wide angle)) / sigma, from above.
+double greatest_detour(const Cells& cells, const std::array<Edge, 2>& edges) {
+  double greatest = 0.0;
+  const double wide = edges[0].half_angle + edges[0].widening;
+  for (const SectionCell& cell : cells) {
+    const double from = lean(edges[0].G, edges[0].w, cell);
+    const double other = lean(edges[1].G, edges[1].w, cell);
+    const bool behind = passes_behind(edges[0], from, other);
+    const double angle =
+        edges[0].half_angle - std::min(from, other) + std::atan(cell.deviation);
+    const double missing =
+        1.0 - std::cos(behind ? kPi : std::min(kPi, angle)) / std::cos(wide);
+    greatest = std::max(greatest, missing / cell.sigma_low);
   }
   return greatest;
 }
 
-void set_cone(const std::vector<SectionCell>& section, double mu, double widening,
-              const Vec2& gamma, RunLaw& law) {
+/// An end of a face: side +1 bounds dtheta from below; g [m]: moment of gravity about it.
+struct End {
+  double side, g;
+};
+
+/// What the moment of the pads and gravity allow per dT beyond `ratio` c^2 dtheta, over
+/// c.
+double excess(const SectionCell& cell, double c, const End& end, double ratio) {
+  const double turning = end.side > 0.0 ? cell.turning_high : -cell.turning_low;
+  const double sine = end.side > 0.0
+                          ? std::min(ratio * cell.sine_low, ratio * cell.sine_high)
+                          : -std::max(ratio * cell.sine_low, ratio * cell.sine_high);
+  const double weight =
+      -end.side * end.g / (end.side * end.g > 0.0 ? cell.drag_high : cell.drag_low);
+  return turning - sine + weight / c;
+}
+
+/// Of the excess, what has to be counted per dT, over c: that of fast turning.
+double excess_per_travel(const Cells& cells, double c, const End& end, double ratio) {
+  constexpr double kFast = 50.0;  // sigma
+  double most = -kInfinity;
+  for (const SectionCell& cell : cells) {
+    if (cell.sigma_high > kFast) most = std::max(most, excess(cell, c, end, ratio));
+  }
+  return most;
+}
+
+/// The rest of it, per |dp|.
+double excess_per_path(const Cells& cells, double c, const End& end, double ratio,
+                       double per_travel) {
+  double most = -kInfinity;
+  for (const SectionCell& cell : cells) {
+    const double rest = excess(cell, c, end, ratio) - per_travel;
+    most = std::max(most, rest * (rest > 0.0 ? cell.sigma_high : cell.sigma_low));
+  }
+  return most;
+}
+
+/// Greatest part of the slack that grows with the distance from the end.
+double deviation_rate(const Cells& cells) {
+  double most = 0.0;
+  for (const SectionCell& cell : cells) {
+    most = std::max(most, cell.deviation / cell.sigma_low);
+  }
+  return most;
+}
+
+/// Fills the cone; returns what a motion outside of it costs, see greatest_detour.
+double set_cone(const Cells& cells, double mu, double widening, const Vec2& gamma,
+                RunLaw& law) {
   const double half_angle = std::atan(mu);
   law.mu = std::tan(half_angle + widening);
   law.jacobian = 2.0 * law.mu;
+  std::array<Edge, 2> edges;
   for (int k = 0; k < 2; ++k) {
     const Vec2 side = k == 0 ? law.t : Vec2(-law.t);
     law.w[k] = law.mu * law.n + side;
-    law.back[k] = -least_advance(
-        section, {half_angle, widening, std::hypot(1.0, mu), law.w[k].norm(),
-                  (mu * law.n + side).dot(gamma), (mu * law.n - side).dot(gamma)});
+    edges[k] = {half_angle,
+                widening,
+                std::hypot(1.0, mu),
+                law.w[k].norm(),
+                (mu * law.n + side).dot(gamma),
+                (mu * law.n - side).dot(gamma)};
+    law.back[k] = -least_advance(cells, edges[k]);
   }
+  return greatest_detour(cells, edges);
 }
 
-void set_ends(const std::vector<SectionCell>& section, const Model& model, double reach,
-              const Vec2& gamma, RunLaw& law) {
-  for (int k = 0; k < 2; ++k) {
-    const Vec2& end = k == 0 ? law.low : law.high;
-    const double side = k == 0 ? 1.0 : -1.0;
-    const double g = cross(model.p_OCom - end, gamma);
-    law.slack[k] = greatest_slack(section, model.c, side, g, 0.0);
-    const double far = greatest_slack(section, model.c, side, g, reach);
-    law.slack_slope[k] = (far - law.slack[k]) / reach;
+/// Slow turning is charged with so much more per dT than it has to, which leaves less per
+/// |dp|.
+constexpr double kSlowCharge = 1.3;
+
+void set_end(const Cells& cells, const Model& model, double ratio, bool is_slow,
+             double detour, const End& end, const RunLaw& law, EndLaw& result) {
+  const double c = model.c;
+  const double fast = excess_per_travel(cells, c, end, ratio);
+  const double per_travel = std::max(1e-4, fast) * (is_slow ? kSlowCharge : 1.0);
+  const double per_path = excess_per_path(cells, c, end, ratio, per_travel);
+  const double beyond = std::max(0.0, per_path);
+  result.per_travel = c * (per_travel + beyond * detour);
+  result.per_path = c * std::min(0.0, per_path);
+  result.slope = deviation_rate(cells);
+  result.place += end.side * c * beyond * std::hypot(1.0, law.mu) * law.t;
+}
+
+void set_ends(const PadSection& section, const Model& model, const PushContact& contact,
+              double detour, const Vec2& gamma, RunLaw& law) {
+  for (int set = 0; set < RunLaw::kSets; ++set) {
+    const bool is_slow = set == 0;
+    const double ratio = is_slow ? section.slow_ratio : section.fast_ratio;
+    for (int k = 0; k < 2; ++k) {
+      EndLaw& end = law.end[set][k];
+      end.place = k == 0 ? contact.b : contact.a;
+      const double g = cross(model.p_OCom - end.place, gamma);
+      set_end(section.cells, model, ratio, is_slow, detour, {k == 0 ? 1.0 : -1.0, g}, law,
+              end);
+    }
   }
 }
 
@@ -112,12 +197,15 @@ RunLaws run_laws(const Model& model) {
   for (const PushContact& contact : model.contacts) {
     if (model.needs_space(contact)) return laws;
   }
-  const std::vector<SectionCell> section = pad_section(model);
-  if (section.empty()) return laws;
+  const PadSection section = pad_section(model);
+  if (section.cells.empty()) return laws;
   double deviation = 0.0;
-  for (const SectionCell& cell : section) deviation = std::max(deviation, cell.deviation);
+  for (const SectionCell& cell : section.cells) {
+    deviation = std::max(deviation, cell.deviation);
+  }
   const double widening = std::atan(deviation);
-  laws.C = kSectionRatio * model.c * model.c;
+  laws.C = {section.slow_ratio * model.c * model.c,
+            section.fast_ratio * model.c * model.c};
   laws.reach = size_of(model.outline);
   std::vector<RunLaw> contacts;
   contacts.reserve(model.contacts.size());
@@ -126,11 +214,9 @@ RunLaws run_laws(const Model& model) {
     RunLaw law;
     law.n = contact.n;
     law.t = contact.t;
-    law.low = contact.b;
-    law.high = contact.a;
     const Vec2 gamma = model.mass / model.F * contact.g_O;
-    set_cone(section, contact.mu, widening, gamma, law);
-    set_ends(section, model, laws.reach, gamma, law);
+    const double detour = set_cone(section.cells, contact.mu, widening, gamma, law);
+    set_ends(section, model, contact, detour, gamma, law);
     contacts.push_back(law);
   }
   laws.contacts = std::move(contacts);

@@ -5,7 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include "planner/segment.h"
+#include "planner/portals.h"
+#include "planner/run_bound.h"
 #include "scene/outline.h"
 
 namespace prehensile {
@@ -15,8 +16,16 @@ constexpr double kPi = std::numbers::pi;
 constexpr int kMostPlacements = 6;
 constexpr double kWidestTurn = 0.5;  // [rad] of a first goal piece
 constexpr double kNarrowestTurn = 1e-3;
+constexpr std::int64_t kNodesPerRun = 500;  // as long as a bound of a run takes
 
-bool worse(const WordNode& a, const WordNode& b) { return a.bound > b.bound; }
+/// A node that is open: best first, of equal ones the older.
+struct OpenNode {
+  double bound;
+  int index;
+  bool operator<(const OpenNode& other) const {  // heaps keep the greatest in front
+    return bound != other.bound ? bound > other.bound : index > other.index;
+  }
+};
 
 /// Greatest distance of the goal's place from the nominal one at these turns [m].
 double place_slack(const WordQuestion& question, double turn_low, double turn_high) {
@@ -57,28 +66,42 @@ class OpenNodes {
   OpenNodes(const WordScene& scene, double target, std::int64_t& nodes)
       : scene_(scene), target_(target), nodes_(nodes) {}
 
-  void add(WordNode node) {
+  /// Bounds a node, and keeps it if it may hold a plan.
+  void add(WordNode& node) {
     --nodes_;
     cross_portals(scene_, node);
-    if (bound_node(scene_, target_, node)) {
-      heap_.push_back(node);
-      std::push_heap(heap_.begin(), heap_.end(), worse);
-    }
+    if (bound_node(scene_, target_, node)) keep(node);
   }
 
   /// The least bound of what is left, at most the target.
   double run(const WordQuestion& question) {
+    WordNode node;
     while (!heap_.empty() && nodes_ > 0) {
-      std::pop_heap(heap_.begin(), heap_.end(), worse);
-      const WordNode node = heap_.back();
+      std::pop_heap(heap_.begin(), heap_.end());
+      const int index = heap_.back().index;
+      node = pool_[index];
       if (node.split == WordNode::Split::kNone) return node.bound;
       heap_.pop_back();
+      free_.push_back(index);
       divide(question, node);
     }
     return heap_.empty() ? target_ : std::min(target_, heap_.front().bound);
   }
 
  private:
+  void keep(const WordNode& node) {
+    int index = static_cast<int>(pool_.size());
+    if (free_.empty()) {
+      pool_.push_back(node);
+    } else {
+      index = free_.back();
+      free_.pop_back();
+      pool_[index] = node;
+    }
+    heap_.push_back({node.bound, index});
+    std::push_heap(heap_.begin(), heap_.end());
+  }
+
   void divide(const WordQuestion& question, const WordNode& node) {
     if (node.split == WordNode::Split::kLine) {
       WordNode child = node;
@@ -87,7 +110,6 @@ class OpenNodes {
         if (possible) add(child);
         return;
       }
-      child.points = node.points;
       halve_widest(question, node);
       return;
     }
@@ -127,8 +149,7 @@ class OpenNodes {
     if (widest < 1e-6) {  // nothing to divide: it stays open with its bound
       WordNode last = node;
       last.split = WordNode::Split::kNone;
-      heap_.push_back(last);
-      std::push_heap(heap_.begin(), heap_.end(), worse);
+      keep(last);
       return;
     }
     halve(question, node,
@@ -145,7 +166,9 @@ class OpenNodes {
   const WordScene& scene_;
   double target_;
   std::int64_t& nodes_;
-  std::vector<WordNode> heap_;
+  std::vector<WordNode> pool_;
+  std::vector<int> free_;  // places of the pool
+  std::vector<OpenNode> heap_;
 };
 
 PointBox bounding_box(const std::vector<Vec2>& outline) {
@@ -181,9 +204,97 @@ void for_each_goal_piece(const WordScene& scene, const WordQuestion& question,
   }
   const double low = question.goal.turn_low - question.theta;
   const double high = question.goal.turn_high - question.theta;
+  if (question.goal.one_winding) return pieces(low, high);
   const int first = static_cast<int>(std::ceil((-most - high) / (2.0 * kPi)));
   const int last = static_cast<int>(std::floor((most - low) / (2.0 * kPi)));
   for (int k = first; k <= last; ++k) pieces(low + 2.0 * kPi * k, high + 2.0 * kPi * k);
+}
+
+/// Runs of a single placement whose goal turns by some range, best first.
+class SingleRuns {
+ public:
+  SingleRuns(const WordScene& scene, const WordQuestion& question, double target,
+             std::int64_t& nodes)
+      : scene_(scene),
+        question_(question),
+        target_(target),
+        nodes_(nodes),
+        others_(scene, target, nodes) {}
+
+  void add(int contact, double low, double high) {
+    --nodes_;
+    Run run{.contact = contact, .turn_low = low, .turn_high = high};
+    WordNode node;
+    node.points = 2;
+    node.placements = 1;
+    node.box[0].centre = question_.p_OF;
+    node.contact[1] = static_cast<signed char>(contact);
+    node.bound = 1.0 + question_.straight / scene_.L;
+    set_goal(question_, low, high, node);
+    const PointBox goal = node.box[1];
+    const WordNode whole = node;
+    cross_portals(scene_, node);
+    if (!bound_node(scene_, target_, node)) return;
+    const double travel = run_bound({.laws = scene_.laws,
+                                     .contact = contact,
+                                     .c = scene_.c,
+                                     .outline = &scene_.outline,
+                                     .start = question_.p_OF,
+                                     .goal = goal,
+                                     .turn_low = low,
+                                     .turn_high = high,
+                                     .cap = (target_ - 1.0) * scene_.L});
+    if (travel <= 0.0) {  // the goal is not ahead: gravity has to help
+      WordNode piece = whole;
+      return others_.add(piece);
+    }
+    nodes_ -= kNodesPerRun;
+    run.bound = std::max(node.bound, 1.0 + travel / scene_.L);
+    if (run.bound >= target_) return;
+    heap_.push_back(run);
+    std::push_heap(heap_.begin(), heap_.end());
+  }
+
+  /// The least bound of what is left, at most the target.
+  double run() {
+    while (!heap_.empty() && nodes_ > 0) {
+      const Run worst = heap_.front();
+      const double middle = 0.5 * (worst.turn_low + worst.turn_high);
+      if (worst.turn_high - worst.turn_low < kNarrowestTurn) break;
+      std::pop_heap(heap_.begin(), heap_.end());
+      heap_.pop_back();
+      add(worst.contact, worst.turn_low, middle);
+      add(worst.contact, middle, worst.turn_high);
+    }
+    const double left = heap_.empty() ? target_ : heap_.front().bound;
+    return std::min(left, others_.run(question_));
+  }
+
+ private:
+  struct Run {
+    int contact = 0;
+    double turn_low = 0.0, turn_high = 0.0, bound = 0.0;
+    bool operator<(const Run& other) const { return bound > other.bound; }
+  };
+
+  const WordScene& scene_;
+  const WordQuestion& question_;
+  double target_;
+  std::int64_t& nodes_;
+  std::vector<Run> heap_;
+  OpenNodes others_;
+};
+
+/// All plans of one placement.
+double single_runs(const WordScene& scene, const WordQuestion& question, double target,
+                   std::int64_t& nodes) {
+  SingleRuns runs(scene, question, target, nodes);
+  const int contacts = static_cast<int>(scene.laws->contacts.size());
+  for (int contact = 0; contact < contacts; ++contact) {
+    for_each_goal_piece(scene, question, (target - 1.0) * scene.L,
+                        [&](double low, double high) { runs.add(contact, low, high); });
+  }
+  return runs.run();
 }
 
 /// All words of this many placements.
@@ -209,8 +320,9 @@ double words(const WordScene& scene, const WordQuestion& question, int placement
       if (nodes <= 0) return std::min(target, node.bound);
       for_each_goal_piece(scene, question, (target - placements) * scene.L,
                           [&](double low, double high) {
-                            set_goal(question, low, high, node);
-                            open.add(node);
+                            WordNode piece = node;
+                            set_goal(question, low, high, piece);
+                            open.add(piece);
                           });
     }
     int i = 0;
@@ -218,56 +330,6 @@ double words(const WordScene& scene, const WordQuestion& question, int placement
     if (i == placements) break;
   }
   return open.run(question);
-}
-
-bool on_side(const std::vector<Vec2>& outline, std::size_t from, std::size_t to,
-             const Vec2& origin, const Vec2& normal) {
-  for (std::size_t i = from; i != to; i = (i + 1) % outline.size()) {
-    if (normal.dot(outline[i] - origin) < -1e-9) return false;
-  }
-  return true;
-}
-
-bool is_reflex(const std::vector<Vec2>& outline, std::size_t i) {
-  const std::size_t n = outline.size();
-  const Vec2& v = outline[i];
-  return cross(v - outline[(i + n - 1) % n], outline[(i + 1) % n] - v) < 0.0;
-}
-
-bool parts(const std::vector<Vec2>& outline, std::size_t i, std::size_t j,
-           const Vec2& normal) {
-  return (on_side(outline, i, j, outline[i], normal) &&
-          on_side(outline, j, i, outline[i], -normal)) ||
-         (on_side(outline, i, j, outline[i], -normal) &&
-          on_side(outline, j, i, outline[i], normal));
-}
-
-/// Of each notch the shortest diagonal that parts the outline into the two sides of its
-/// line, if there is one.
-std::vector<Portal> portals_of(const std::vector<Vec2>& outline) {
-  constexpr std::size_t kMostVertices = 64;
-  std::vector<Portal> portals;
-  const std::size_t n = outline.size();
-  if (n > kMostVertices) return portals;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!is_reflex(outline, i)) continue;
-    Portal best;
-    double length = std::numeric_limits<double>::infinity();
-    for (std::size_t j = 0; j < n; ++j) {
-      if (j == i || (j + 1) % n == i || (i + 1) % n == j) continue;
-      const Vec2 along = outline[j] - outline[i];
-      const Vec2 normal = perp(along).normalized();
-      if (along.norm() >= length || !parts(outline, i, j, normal)) continue;
-      if (!segment_inside(outline, outline[i], outline[j])) continue;
-      length = along.norm();
-      best = {outline[i], outline[j], normal};
-    }
-    const bool known = std::any_of(portals.begin(), portals.end(), [&](const Portal& p) {
-      return p.from == best.to && p.to == best.from;
-    });
-    if (std::isfinite(length) && !known) portals.push_back(best);
-  }
-  return portals;
 }
 
 }  // namespace
@@ -289,7 +351,10 @@ double word_bound(const WordScene& scene, const WordQuestion& question, double t
     const double least = placements + question.straight / scene.L;
     if (least >= best) return best;
     if (placements > kMostPlacements || nodes <= 0) return std::min(best, least);
-    best = std::min(best, words(scene, question, placements, best, nodes));
+    const double bound = placements == 1
+                             ? single_runs(scene, question, best, nodes)
+                             : words(scene, question, placements, best, nodes);
+    best = std::min(best, bound);
   }
 }
 

@@ -13,6 +13,7 @@ struct WordGoal {
   Vec2 place_H = Vec2::Zero();             ///< (x, y) of X_HO [m]
   double turn_low = 0.0, turn_high = 0.0;  ///< [rad] of the angle of O in H, one winding
   bool any_turn = false;                   ///< the goal leaves the angle free
+  bool one_winding = false;                ///< no other winding is a goal
   /// [m] greatest distance of the goal's place from place_H, and what of it is lost per
   /// radian off the middle of the turns.
   double place_slack = 0.0, slack_per_turn = 0.0;

@@ -14,17 +14,22 @@ constexpr double kLength = 1e-7;  // [m] by which a piece may violate a law unno
 /// the widest box is.
 constexpr double kLineWeight = 0.1;
 
+/// One set of the laws of the ends, for one piece.
+struct PieceEnds {
+  std::array<double, 2> centre{};  // of the two sums of cross products
+  std::array<Vec2, 2> gradient_from, gradient_to;
+  std::array<double, 2> ends{};  // sums of the boxes' greatest distances from an end [m]
+};
+
 /// What the law of a contact says about one piece of the path.
 struct Piece {
   const RunLaw* law = nullptr;
   double distance = 0.0;            // of the boxes, rounded down [m]
   double least = 0.0;               // travel [m]
   std::array<double, 2> advance{};  // greatest w_k.(-d) over the boxes
-  std::array<double, 2> centre{};   // of the two sums of cross products
-  std::array<Vec2, 2> gradient_from, gradient_to;
-  std::array<double, 2> remainder{};
-  double area = 0.0;             // at the centres [m^2]
-  std::array<double, 2> ends{};  // sums of the boxes' greatest distances from an end [m]
+  double area = 0.0;                // at the centres [m^2]
+  double remainder = 0.0;           // of the sums
+  std::array<PieceEnds, RunLaw::kSets> set;
 };
 
 double distance_below(const PointBox& from, const PointBox& to) {
@@ -78,18 +83,21 @@ bool make_piece(const WordScene& scene, const WordNode& node, int point, Piece& 
   piece.area = std::max(0.0, product);
   const Vec2 area_gradient =
       -(law.w[0] * middle[1] + law.w[1] * middle[0]) / law.jacobian;
-  const double crossed = cross_remainder(from, to);
-  const double bent = reach[0] * reach[1] / law.jacobian;
-  for (int k = 0; k < 2; ++k) {
-    const Vec2& end = k == 0 ? law.low : law.high;
-    const double sign = k == 0 ? -1.0 : 1.0;
-    const Vec2 u = from.centre - end;
-    const Vec2 v = to.centre - end;
-    piece.centre[k] = cross(u, v) + sign * product;
-    piece.gradient_from[k] = -perp(v) - sign * area_gradient;
-    piece.gradient_to[k] = perp(u) + sign * area_gradient;
-    piece.remainder[k] = crossed + bent;
-    piece.ends[k] = farthest(from, end) + farthest(to, end);
+  piece.remainder = cross_remainder(from, to) + reach[0] * reach[1] / law.jacobian;
+  for (int set = 0; set < RunLaw::kSets; ++set) {
+    PieceEnds& ends = piece.set[set];
+    for (int k = 0; k < 2; ++k) {
+      const EndLaw& end = law.end[set][k];
+      const double sign = k == 0 ? -1.0 : 1.0;
+      const Vec2 u = from.centre - end.place;
+      const Vec2 v = to.centre - end.place;
+      ends.centre[k] = cross(u, v) + sign * product;
+      ends.gradient_from[k] = -perp(v) - sign * area_gradient;
+      ends.gradient_to[k] = perp(u) + sign * area_gradient;
+      if (end.slope != 0.0) {
+        ends.ends[k] = farthest(from, end.place) + farthest(to, end.place);
+      }
+    }
   }
   return true;
 }
@@ -106,15 +114,19 @@ double area_slack(const Piece& piece, double travel) {
 
 /// Greatest slack per travel of an end (k = 0: low, 1: high) [m]: every place of a path
 /// of this travel is within (sum of the boxes' distances + travel) / 2 of the end.
-double slack_rate(const WordScene& scene, const Piece& piece, int k, double most) {
-  const double distance = std::min(scene.laws->reach, 0.5 * (piece.ends[k] + most));
-  return piece.law->slack[k] + piece.law->slack_slope[k] * distance;
+double slack_rate(const WordScene& scene, const Piece& piece, int set, int k,
+                  double most) {
+  const EndLaw& end = piece.law->end[set][k];
+  if (end.slope == 0.0) return end.per_travel;
+  const double distance =
+      std::min(scene.laws->reach, 0.5 * (piece.set[set].ends[k] + most));
+  return end.per_travel + end.slope * distance;
 }
 
 /// Greatest slack of an end of a piece of this travel [m^2]; convex in the travel.
-double end_slack(const Piece& piece, double slack, double travel) {
+double end_slack(const Piece& piece, const EndLaw& end, double slack, double travel) {
   return std::max(0.0, slack) * travel + std::min(0.0, slack) * piece.least +
-         area_slack(piece, travel);
+         end.per_path * piece.distance + area_slack(piece, travel);
 }
 
 /// Turns [rad] of a piece, and of the whole path.
@@ -151,46 +163,40 @@ double least_travel(const std::array<Piece, WordNode::kMaxPoints>& piece,
   return travel;
 }
 
-}  // namespace
-
-bool bound_node(const WordScene& scene, double target, WordNode& node) noexcept {
+/// Turns of the pieces by one set of laws, and the box whose half-edge matters most, kept
+/// where it is wider than `widest`; false if their sum is not what is wanted.
+bool bound_turns(const WordScene& scene, WordNode& node,
+                 const std::array<Piece, WordNode::kMaxPoints>& piece, int set,
+                 double spare, const Turns& whole,
+                 std::array<Turns, WordNode::kMaxPoints>& turns, double& widest) {
   const int n = node.points;
-  const double C = scene.laws->C;
-  const double cap = (target - node.placements) * scene.L;
-  std::array<Piece, WordNode::kMaxPoints> piece;
-  double least = 0.0;
-  for (int i = 1; i < n; ++i) {
-    if (!make_piece(scene, node, i, piece[i])) return false;
-    least += piece[i].least;
-  }
-  const double spare = cap - least;
-  if (!(spare > 0.0)) return false;
-
-  std::array<Turns, WordNode::kMaxPoints> turns;
+  const double C = scene.laws->C[set];
   std::array<double, 2> sum{};  // of the two sides over all pieces
   std::array<double, 2> costliest{};
   std::array<std::array<Vec2, 2>, WordNode::kMaxPoints> gradient;
   for (int i = 0; i < n; ++i) gradient[i] = {Vec2::Zero(), Vec2::Zero()};
   for (int i = 1; i < n; ++i) {
     const Piece& p = piece[i];
+    const PieceEnds& ends = p.set[set];
     std::array<double, 2> alone;
     for (int k = 0; k < 2; ++k) {
       const double sign = k == 0 ? -1.0 : 1.0;
-      const double slack = slack_rate(scene, p, k, p.least + spare);
-      const double small = end_slack(p, slack, p.least);
-      const double large = end_slack(p, slack, p.least + spare);
+      const EndLaw& law = p.law->end[set][k];
+      const double slack = slack_rate(scene, p, set, k, p.least + spare);
+      const double small = end_slack(p, law, slack, p.least);
+      const double large = end_slack(p, law, slack, p.least + spare);
       costliest[k] = std::max(costliest[k], large - small);
-      sum[k] += p.centre[k] + sign * (small + p.remainder[k]);
-      alone[k] = p.centre[k] + sign * (large + p.remainder[k] +
-                                       node.box[i - 1].reach(p.gradient_from[k]) +
-                                       node.box[i].reach(p.gradient_to[k]));
-      gradient[i - 1][k] += p.gradient_from[k];
-      gradient[i][k] += p.gradient_to[k];
+      sum[k] += ends.centre[k] + sign * (small + p.remainder);
+      alone[k] = ends.centre[k] + sign * (large + p.remainder +
+                                          node.box[i - 1].reach(ends.gradient_from[k]) +
+                                          node.box[i].reach(ends.gradient_to[k]));
+      gradient[i - 1][k] += ends.gradient_from[k];
+      gradient[i][k] += ends.gradient_to[k];
     }
-    turns[i] = {alone[0] / C, alone[1] / C};
+    turns[i] = {std::max(turns[i].low, alone[0] / C),
+                std::min(turns[i].high, alone[1] / C)};
     if (turns[i].low > turns[i].high) return false;
   }
-  double widest = 0.0;
   for (int i = 0; i < n; ++i) {
     for (int k = 0; k < 2; ++k) {
       sum[k] += (k == 0 ? -1.0 : 1.0) * node.box[i].reach(gradient[i][k]);
@@ -208,16 +214,38 @@ bool bound_node(const WordScene& scene, double target, WordNode& node) noexcept 
       node.split_edge = static_cast<signed char>(edge);
     }
   }
+  return (sum[0] - costliest[0]) / C <= whole.high &&
+         (sum[1] + costliest[1]) / C >= whole.low;
+}
+
+}  // namespace
+
+bool bound_node(const WordScene& scene, double target, WordNode& node) noexcept {
+  const int n = node.points;
+  const double cap = (target - node.placements) * scene.L;
+  std::array<Piece, WordNode::kMaxPoints> piece;
+  double least = 0.0;
+  for (int i = 1; i < n; ++i) {
+    if (!make_piece(scene, node, i, piece[i])) return false;
+    least += piece[i].least;
+  }
+  const double spare = cap - least;
+  if (!(spare > 0.0)) return false;
+
   const Turns whole{node.turn_low, node.turn_high};
-  if ((sum[0] - costliest[0]) / C > whole.high) return false;
-  if ((sum[1] + costliest[1]) / C < whole.low) return false;
+  std::array<Turns, WordNode::kMaxPoints> turns;
+  turns.fill({-kInfinity, kInfinity});
+  double widest = 0.0;
+  for (int set = 0; set < RunLaw::kSets; ++set) {
+    if (!bound_turns(scene, node, piece, set, spare, whole, turns, widest)) return false;
+  }
 
   const double travel = least_travel(piece, turns, n, whole, scene.c);
   node.bound = std::max(node.bound, node.placements + travel / scene.L);
   if (node.bound >= target) return false;
   double largest = 0.0;
   for (int i = 1; i < n && n < WordNode::kMaxPoints; ++i) {
-    const double worth = kLineWeight * piece[i].area * scene.c / C;
+    const double worth = kLineWeight * piece[i].area * scene.c / scene.laws->C[1];
     if (worth <= std::max(widest, largest)) continue;
     largest = worth;
     node.split = WordNode::Split::kLine;

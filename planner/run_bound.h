@@ -1,0 +1,54 @@
+/// The shortest run of sticking pushes by one contact, from below: a convex program, and
+/// a bound from its dual. Internal to the planner.
+///
+/// The path is cut where it first comes to each of a number of depths -n.p between start
+/// and goal. For a piece of depth D, with the steps du of t.p and dz = c dtheta and the
+/// travel tau, the laws of a run (run_law.h) summed over the piece are
+///     tau >= sqrt(D^2 + du^2 + dz^2)
+///     mu D -+ du + back tau >= 0
+///     C dtheta >= h du + (u - u_low) D  - E - slack_low tau
+///     C dtheta <= h du + (u - u_high) D + E + slack_high tau
+/// h and u being means over the piece, h the height over the face, and E = (mu^2 D^2 -
+/// du^2) / (2 mu) twice the largest area between the chord and a path inside the cone.
+/// All of them are convex where tau may be greater than the length; so that gravity may
+/// be used by turning to and fro, as it may in fact. The bound is the value of the
+/// Lagrange dual at multipliers from a barrier method (Boyd and Vandenberghe, Convex
+/// Optimization, 2004, 5.1 and 11.3), which holds whatever the multipliers are.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "planner/word_node.h"
+
+namespace prehensile {
+
+struct RunQuestion {
+  const RunLaws* laws = nullptr;
+  int contact = 0;
+  double c = 0.0;                              ///< [m]
+  const std::vector<Vec2>* outline = nullptr;  ///< where the finger axis may be
+  Vec2 start = Vec2::Zero();
+  PointBox goal;
+  double turn_low = 0.0, turn_high = 0.0;  ///< [rad]
+  double cap = 0.0;  ///< [m] travel of interest: more need not be proved
+  /// Paths that are straight between the depths only: E = 0.
+  bool chords_only = false;
+};
+
+/// A bound on the travel of every run from the start into the goal's box that is no
+/// longer than `cap` [m], at most `cap`; 0 where the goal is not ahead of the contact. No
+/// heap.
+double run_bound(const RunQuestion& question) noexcept;
+
+inline constexpr int kRunPieces = 24;
+
+/// Places between start and goal [m].
+using RunPath = std::array<Vec2, kRunPieces - 1>;
+
+/// The way-points of the shortest run to the goal's box, by the same program; false if
+/// there is none within `cap`, up to 0.01 mm. What gravity presses on may be wrong: a run
+/// may have to turn to and fro. No heap.
+bool run_path(const RunQuestion& question, RunPath& path) noexcept;
+
+}  // namespace prehensile

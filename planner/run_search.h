@@ -1,0 +1,20 @@
+/// The shortest plan of a single placement, as a chain of straight pushes by one contact.
+/// Internal to the planner.
+#pragma once
+
+#include "planner/chain_search.h"
+
+namespace prehensile {
+
+/// Solves the convex program of run_bound.h for each contact, goal place and angle that
+/// may beat `to_beat`, and follows the way-points with as few pushes as lose little.
+std::optional<FoundChain> search_runs(const SearchModel& search, const FlatState& start,
+                                      const GoalPlaces& goals, double to_beat,
+                                      const Limits& limits, Work& work);
+
+/// Replaces a plan over round pads that may be far from optimal by one of a single
+/// placement, if there is one that is cheaper.
+void improve_by_run(const SearchModel& search, const Limits& limits, Work& work,
+                    Plan& plan);
+
+}  // namespace prehensile

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mechanics/sticking.h"
+#include "planner/placement.h"
 
 namespace prehensile {
 namespace {
@@ -21,14 +22,6 @@ struct HandPose {
 ArmPose spatial(const HandPose& hand) {
   return {{hand.X_WH.x, hand.X_WH.y, hand.z},
           Eigen::Quaterniond(Eigen::AngleAxisd(hand.X_WH.theta, Vec3::UnitZ()))};
-}
-
-/// P in W while this contact is at this place.
-PlanarPose pusher_in_world(const Model& model, const PushContact& contact, double place) {
-  const Vec2 touched = 0.5 * (contact.a + contact.b) + place * contact.t;
-  const Vec2 p = model.scene.pushers[static_cast<std::size_t>(contact.pusher)].p_WP -
-                 rotated(contact.theta_WO, touched);
-  return {p.x(), p.y(), contact.theta_WO};
 }
 
 /// Force of the pusher on the object, and where it acts; in O.
@@ -78,7 +71,7 @@ class MotionWriter {
 
   /// The hand while the object, at X_HO in it, stands off the pusher by `gap`.
   HandPose hand(const PlanarPose& X_HO, double gap) const {
-    PlanarPose X_WO = pusher_in_world(model_, contact(), place());
+    PlanarPose X_WO = object_at_pusher(model_, contact(), place());
     const Vec2 off = gap * rotated(X_WO.theta, contact().n);
     X_WO.x += off.x();
     X_WO.y += off.y();
@@ -114,7 +107,7 @@ class MotionWriter {
     if (const auto* roll = std::get_if<Roll>(&planned().push)) return write_roll(*roll);
     const LinearPush push = as_linear(planned().push);
     const PlanarPose& X_HO = planned().start.X_HO;
-    const PlanarPose X_WP = pusher_in_world(model_, contact(), push.place);
+    const PlanarPose X_WP = object_at_pusher(model_, contact(), push.place);
     move(ArmPhase::kPush, push.travel, push.turn, limits_.push_speed, [&](double s) {
       return HandPose{compose(X_WP, inverse(pusher_pose(push, X_HO, s))), z_};
     });
@@ -288,6 +281,13 @@ std::string_view name(ArmPhase phase) {
 
 double rest_to_rest(double u) noexcept {
   return u * u * u * (10.0 + u * (-15.0 + 6.0 * u));
+}
+
+PlanarPose pusher_in_world(const Model& model, const PushContact& contact, double place) {
+  const Vec2 touched = 0.5 * (contact.a + contact.b) + place * contact.t;
+  const Vec2 p = model.scene.pushers[static_cast<std::size_t>(contact.pusher)].p_WP -
+                 rotated(contact.theta_WO, touched);
+  return {p.x(), p.y(), contact.theta_WO};
 }
 
 ArmMotion arm_motion(const Model& model, const Plan& plan, const ArmLimits& limits) {

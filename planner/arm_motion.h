@@ -69,6 +69,9 @@ struct ArmMotion {
 /// without jerk at its ends; greatest rate 1.875, greatest second rate 10 / sqrt(3).
 double rest_to_rest(double u) noexcept;
 
+/// P in W while this contact touches with the pusher's centre at `place` [m].
+PlanarPose pusher_in_world(const Model& model, const PushContact& contact, double place);
+
 /// The motion for a usable plan; no samples where there is nothing to do.
 ArmMotion arm_motion(const Model& model, const Plan& plan, const ArmLimits& limits = {});
 

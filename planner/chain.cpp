@@ -5,6 +5,7 @@
 
 #include "planner/holding.h"
 #include "planner/pad_kappas.h"
+#include "planner/ring_kappas.h"
 
 namespace prehensile {
 namespace {
@@ -13,6 +14,7 @@ constexpr int kMaxCombinations = 256;
 constexpr double kMostKappa = 1e4;  // beyond it a leg is a rotation on the spot
 
 using Intervals = std::array<KappaSet::Interval, Chain::kMaxLegs>;
+using Kappas = std::array<double, Chain::kMaxLegs>;
 
 /// The common value whose clipped copies sum up to `wanted` = c dtheta; NaN if out of
 /// reach. sum_k l_k clip(x, I_k) rises with x and is linear between the ends of the I_k.
@@ -54,13 +56,62 @@ KappaSet::Interval interval_around(const KappaSet& set, double kappa) {
   return set.intervals[set.count - 1];
 }
 
-double travel_at(const Chain& chain, const Intervals& intervals, double kappa) {
+double travel_of(const Chain& chain, const Kappas& kappas) {
   double travel = 0.0;
   for (int k = 0; k < chain.count; ++k) {
-    const double clipped = std::clamp(kappa, intervals[k].lo, intervals[k].hi);
-    travel += chain.legs[k].length * std::sqrt(1.0 + clipped * clipped);
+    travel += chain.legs[k].length * std::sqrt(1.0 + kappas[k] * kappas[k]);
   }
   return travel;
+}
+
+/// Whether the sums of l_k kappa_k after each leg stay within the window.
+bool stays_within(const Chain& chain, const Kappas& kappas, const TurnWindow& ways) {
+  double way = 0.0;
+  for (int k = 0; k < chain.count; ++k) {
+    way += chain.legs[k].length * kappas[k];
+    if (!ways.contains(way)) return false;
+  }
+  return true;
+}
+
+/// Changes the kappas as little as it takes, leg by leg, for their sums to stay within
+/// the window and to end at `wanted`; false if no kappas of these intervals do that.
+///
+/// Backwards, `rest[k]` is where the sum after k legs may be; forwards, the sum goes as
+/// the kappas say, clipped to it.
+bool bring_within(const Chain& chain, const Intervals& intervals, double wanted,
+                  const TurnWindow& ways, Kappas& kappas) {
+  std::array<TurnWindow, Chain::kMaxLegs + 1> rest;
+  rest[chain.count] = {wanted, wanted};
+  for (int k = chain.count - 1; k >= 0; --k) {
+    const double length = chain.legs[k].length;
+    rest[k] = {std::max(ways.low, rest[k + 1].low - length * intervals[k].hi),
+               std::min(ways.high, rest[k + 1].high - length * intervals[k].lo)};
+    if (rest[k].low > rest[k].high) return false;
+  }
+  if (!rest[0].contains(0.0)) return false;
+  double way = 0.0;
+  for (int k = 0; k < chain.count; ++k) {
+    const double length = chain.legs[k].length;
+    const double next =
+        std::clamp(way + length * kappas[k], rest[k + 1].low, rest[k + 1].high);
+    kappas[k] = std::clamp((next - way) / length, intervals[k].lo, intervals[k].hi);
+    way = next;
+  }
+  return true;
+}
+
+/// The kappas of least travel, or where these leave the window, some near them that do
+/// not.
+bool choose_kappas(const Chain& chain, const Intervals& intervals, double wanted,
+                   const TurnWindow& ways, Kappas& kappas) {
+  const double kappa = common_kappa(chain, intervals, wanted);
+  if (std::isnan(kappa)) return false;
+  for (int k = 0; k < chain.count; ++k) {
+    kappas[k] = std::clamp(kappa, intervals[k].lo, intervals[k].hi);
+  }
+  return stays_within(chain, kappas, ways) ||
+         bring_within(chain, intervals, wanted, ways, kappas);
 }
 
 /// Steps to the next choice of one interval per leg, like an odometer.
@@ -112,6 +163,13 @@ bool make_leg(const Steering& steering, int contact, const Stop& from, const Sto
     work.stopped_by.add(PushConstraint::kGravity);
     return false;
   }
+  if (search.confines) {
+    const auto broken = search.confines->broken_between(contact, from.p_OF, to.p_OF);
+    if (broken) {
+      work.stopped_by.add(*broken);
+      return false;
+    }
+  }
   if (steering.envelope) {
     ++work.stick_tests;
     leg.kappas =
@@ -123,8 +181,10 @@ bool make_leg(const Steering& steering, int contact, const Stop& from, const Sto
   } else {
     ++work.stick_tests;
     const StickContact& stick = search.contacts[contact].stick;
-    leg.kappas =
-        robust_kappas(stick, from.p_OF, -d / length, search.margin_from(from.p_OF));
+    const bool ring = search.rings && !stick.is_point;
+    leg.kappas = ring ? search.rings->kappas(stick, from.p_OF, -d / length)
+                      : robust_kappas(stick, from.p_OF, -d / length,
+                                      search.margin_from(from.p_OF));
   }
   if (leg.kappas.empty()) {
     work.stopped_by.add(constraint_of(search.contacts[contact], from.p_OF, to.p_OF));
@@ -155,8 +215,12 @@ int placements(const Chain& chain) noexcept {
   return runs;
 }
 
-bool solve_chain(const SearchModel& search, double dtheta, Chain& chain) noexcept {
-  const double wanted = search.model->c * dtheta;
+bool solve_chain(const SearchModel& search, double dtheta, Chain& chain,
+                 const TurnWindow& window) noexcept {
+  const double c = search.model->c;
+  const double wanted = c * dtheta;
+  const TurnWindow ways{c * window.low, c * window.high};
+  if (!ways.contains(wanted)) return false;
   double best_travel = std::numeric_limits<double>::infinity();
   std::array<int, Chain::kMaxLegs> choice{};
   for (int tried = 0; tried < kMaxCombinations; ++tried) {
@@ -164,13 +228,12 @@ bool solve_chain(const SearchModel& search, double dtheta, Chain& chain) noexcep
     for (int k = 0; k < chain.count; ++k) {
       intervals[k] = chain.legs[k].kappas.intervals[choice[k]];
     }
-    const double kappa = common_kappa(chain, intervals, wanted);
-    const double travel =
-        std::isnan(kappa) ? best_travel : travel_at(chain, intervals, kappa);
-    if (travel < best_travel) {
-      best_travel = travel;
-      for (int k = 0; k < chain.count; ++k) {
-        chain.kappa[k] = std::clamp(kappa, intervals[k].lo, intervals[k].hi);
+    Kappas kappas;
+    if (choose_kappas(chain, intervals, wanted, ways, kappas)) {
+      const double travel = travel_of(chain, kappas);
+      if (travel < best_travel) {
+        best_travel = travel;
+        chain.kappa = kappas;
       }
     }
     if (!next_choice(chain, choice)) break;
@@ -218,7 +281,7 @@ void centre_chain(const SearchModel& search, double dtheta, double share,
 
 bool make_chain_stick(const SearchModel& search, double theta_start, double dtheta,
                       Chain& chain, Work& work) noexcept {
-  if (!solve_chain(search, dtheta, chain)) {
+  if (!solve_chain(search, dtheta, chain, turns_from(search, theta_start))) {
     work.stopped_by.add(PushConstraint::kRotation);
     return false;
   }
@@ -232,6 +295,10 @@ bool make_chain_stick(const SearchModel& search, double theta_start, double dthe
 }
 
 bool move_passes(const SearchModel& search, const Move& move, Work& work) noexcept {
+  return move_holds(search, move, work) && is_confined(search, move, work);
+}
+
+bool move_holds(const SearchModel& search, const Move& move, Work& work) noexcept {
   return segment_on_object(*search.model, move.from.p_OF, move.to.p_OF) &&
          exact_slack(search, move, work) >= -kStickTolerance &&
          pads_hold_gravity(search, move, work);
@@ -253,7 +320,9 @@ bool chain_passes(const SearchModel& search, const Chain& chain, double theta_st
       moves.begin(), moves.begin() + chain.count,
       [&](const Move& move) { return pads_hold_gravity(search, move, work); });
   if (!held) work.stopped_by.add(PushConstraint::kGravity);
-  return held;
+  return held &&
+         std::all_of(moves.begin(), moves.begin() + chain.count,
+                     [&](const Move& move) { return is_confined(search, move, work); });
 }
 
 }  // namespace prehensile

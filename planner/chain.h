@@ -10,6 +10,7 @@
 #include <array>
 
 #include "mechanics/pad_envelope.h"
+#include "planner/confines.h"
 #include "planner/steering.h"
 
 namespace prehensile {
@@ -54,9 +55,11 @@ bool make_leg(const Steering& steering, int contact, const Stop& from, const Sto
               Work& work, Leg& leg) noexcept;
 
 /// Chooses kappas for a total rotation dtheta [rad] and the cost; false if the chain
-/// cannot produce it. Legs with several intervals are tried in all combinations up to
-/// 256. No heap.
-bool solve_chain(const SearchModel& search, double dtheta, Chain& chain) noexcept;
+/// cannot produce it, or not with the turn done so far within `window` after each leg.
+/// Legs with several intervals are tried in all combinations up to 256. The shortest
+/// choice, unless the window forbids it: then one near it. No heap.
+bool solve_chain(const SearchModel& search, double dtheta, Chain& chain,
+                 const TurnWindow& window = {}) noexcept;
 
 /// Moves the kappas of a solved chain by this share towards those that lie equally deep
 /// in their intervals and have the same sum: longer, but farther from slipping. No heap.
@@ -83,11 +86,16 @@ double turn_of(const SearchModel& search, const Chain& chain, int leg);
 double exact_slack(const SearchModel& search, const Move& move, Work& work) noexcept;
 
 /// Whether a move stays on the object, sticks with the real pad over the margin box, and
-/// the pads alone hold gravity along it; the closed form is not asked. No heap.
+/// the pads alone hold gravity along it; the closed form is not asked, nor what confines
+/// the move. No heap.
+bool move_holds(const SearchModel& search, const Move& move, Work& work) noexcept;
+
+/// The same, and the move is confined.
 bool move_passes(const SearchModel& search, const Move& move, Work& work) noexcept;
 
-/// Whether every move of a solved chain sticks with the real pad over the margin box and
-/// the pads alone hold gravity along it; what costs most is asked last. No heap.
+/// Whether every move of a solved chain sticks with the real pad over the margin box, the
+/// pads alone hold gravity along it, and it is confined; what costs most is asked last.
+/// No heap.
 bool chain_passes(const SearchModel& search, const Chain& chain, double theta_start,
                   Work& work) noexcept;
 

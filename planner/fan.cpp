@@ -37,7 +37,8 @@ void add_interval(int contact, const Vec2& e, const KappaSet::Interval& interval
 /// index).
 class Basis {
  public:
-  Basis(const std::vector<Generator>& fan, const Vec3& step) : fan_(fan), step_(step) {
+  Basis(const std::vector<Generator>& fan, const Vec3& step, double free_rotation_cost)
+      : fan_(fan), step_(step), free_rotation_cost_(free_rotation_cost) {
     for (int i = 0; i < 3; ++i) {
       column_[i] = -1 - i;
       sign_[i] = step[i] < 0.0 ? -1.0 : 1.0;
@@ -98,7 +99,7 @@ class Basis {
  private:
   double cost(int column) const {
     if (column < 0) return kArtificialCost;
-    return fan_[column].contact < 0 ? kFreeRotationCost : 1.0;
+    return fan_[column].contact < 0 ? free_rotation_cost_ : 1.0;
   }
 
   void factor() {
@@ -117,6 +118,7 @@ class Basis {
 
   const std::vector<Generator>& fan_;
   Vec3 step_;
+  double free_rotation_cost_;
   std::array<int, 3> column_{};
   std::array<double, 3> sign_{};
   Eigen::Matrix3d inverse_ = Eigen::Matrix3d::Identity();
@@ -147,8 +149,9 @@ std::vector<Generator> fan_at(const SearchModel& search, const PadEnvelope& enve
   return fan;
 }
 
-std::optional<Combination> combine(const std::vector<Generator>& fan, const Vec3& step) {
-  Basis basis(fan, step);
+std::optional<Combination> combine(const std::vector<Generator>& fan, const Vec3& step,
+                                   double free_rotation_cost) {
+  Basis basis(fan, step, free_rotation_cost);
   for (int pivots = 0; pivots < kMostPivots; ++pivots) {
     const int entering = basis.entering(pivots > kMostPivots / 2);
     if (entering < 0) return basis.combination();

@@ -36,12 +36,13 @@ struct Combination {
   std::array<double, 3> amount{};  ///< [m] > 0
 };
 
-/// The combination with sum amount u = step of least cost sum amount, where free
-/// rotation counts `kFreeRotationCost` of its length; none if the fan does not reach the
-/// step. Revised simplex on three rows.
-std::optional<Combination> combine(const std::vector<Generator>& fan, const Vec3& step);
-
 inline constexpr double kFreeRotationCost = 0.2;
+
+/// The combination with sum amount u = step of least cost sum amount, where free rotation
+/// counts `free_rotation_cost` of its length; none if the fan does not reach the step.
+/// Revised simplex on three rows.
+std::optional<Combination> combine(const std::vector<Generator>& fan, const Vec3& step,
+                                   double free_rotation_cost = kFreeRotationCost);
 
 /// Adds a generator each way that turns the object without a push: steps then fix the
 /// place only, and the rotation that the real pushes make is a by-product.

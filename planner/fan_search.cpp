@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "planner/chain.h"
+#include "planner/confines.h"
 #include "planner/fan.h"
 #include "planner/inner_path.h"
 #include "planner/lattice.h"
@@ -17,7 +18,8 @@ constexpr std::array<int, 13> kPieces = {1, 2, 3, 4, 6, 9, 14, 20, 30, 60, 120, 
 constexpr int kMostPiecesWhereThin = 9;  // more do not help where control is lost
 constexpr std::array<double, 3> kDepths = {0.02, 0.1, 0.3};  // of moves in their ranges
 constexpr std::array<int, 3> kLegPieces = {8, 32, 128};
-constexpr int kBranchNodes = 200;  // lattice of places where legs may begin
+constexpr double kDearRotation = 1e3;  // in place of kFreeRotationCost, under limits
+constexpr int kBranchNodes = 200;      // lattice of places where legs may begin
 constexpr int kMostBranches = 8;
 
 using Moves = std::vector<Move>;
@@ -31,6 +33,10 @@ bool orders_first(const Order& order, int count) {
     if (order[k] != k) return false;
   }
   return true;
+}
+
+bool limits_theta(const Scene& scene) {
+  return scene.limits && (scene.limits->theta_low || scene.limits->theta_high);
 }
 
 class FanSearch {
@@ -59,7 +65,9 @@ class FanSearch {
     const std::vector<Vec2> path =
         inner_path(search_.model->pad_face, from.p_OF, to.p_OF);
     if (path.empty()) return std::nullopt;
-    const bool thin = !controllable(from.p_OF) || !controllable(to.p_OF);
+    // Limits on theta want short pieces, also where the object is hard to control.
+    const bool thin = !limits_theta(search_.model->scene) &&
+                      (!controllable(from.p_OF) || !controllable(to.p_OF));
     for (const int pieces : kPieces) {
       if (thin && pieces > kMostPiecesWhereThin) return std::nullopt;
       for (const double depth : kDepths) {
@@ -95,7 +103,9 @@ class FanSearch {
     Vec3 wanted;
     wanted << next.p_OF - at.p_OF,
         drifts ? 0.0 : search_.model->c * (next.theta - at.theta);
-    const auto found = combine(fan, wanted);
+    const auto found =
+        combine(fan, wanted,
+                limits_theta(search_.model->scene) ? kDearRotation : kFreeRotationCost);
     return found && append(fan, *found, at, next, drifts, moves);
   }
 
@@ -131,7 +141,9 @@ class FanSearch {
     }
     if (!drifts && moves.size() > before) moves.back().to = next;  // without rounding
     for (std::size_t i = before; i < moves.size(); ++i) {
-      if (!move_passes(search_, moves[i], work_)) {
+      const bool passes = drifts ? move_holds(search_, moves[i], work_)
+                                 : move_passes(search_, moves[i], work_);
+      if (!passes) {
         moves.resize(before);
         return false;
       }
@@ -146,14 +158,23 @@ class FanSearch {
     });
   }
 
-  /// Along a path with the rotation left to itself.
-  std::optional<Moves> leg(const FlatState& from, const Vec2& to) {
+  bool all_confined(const Moves& moves) {
+    return std::all_of(moves.begin(), moves.end(), [this](const Move& move) {
+      return is_confined(search_, move, work_);
+    });
+  }
+
+  /// Along a path with the rotation left to itself; the first that `settle` makes into
+  /// one that is confined.
+  template <class Settle>
+  std::optional<Moves> leg(const FlatState& from, const Vec2& to, const Settle& settle) {
     const std::vector<Vec2> path = inner_path(search_.model->pad_face, from.p_OF, to);
     if (path.empty()) return std::nullopt;
     for (const int pieces : kLegPieces) {
       for (const double depth : kDepths) {
         if (limits_.reached()) return std::nullopt;
-        if (auto moves = leg_in_pieces(from, cut_path(path, pieces), depth)) return moves;
+        auto moves = leg_in_pieces(from, cut_path(path, pieces), depth);
+        if (moves && settle(*moves) && all_confined(*moves)) return moves;
       }
     }
     return std::nullopt;
@@ -175,17 +196,17 @@ class FanSearch {
 
   /// A leg into the goal, turned as a whole so that it ends with the wanted angle.
   std::optional<Moves> leg_into(const Vec2& from, const FlatState& goal) {
-    auto moves = leg({from, goal.theta}, goal.p_OF);
-    if (!moves || moves->empty()) return std::nullopt;
-    const double drift = moves->back().to.theta - goal.theta;
-    for (Move& move : *moves) {
-      move.from.theta -= drift;
-      move.to.theta -= drift;
-    }
-    moves->back().to = goal;
-    // Isotropic pads feel the same at every angle; others are asked again.
-    if (!search_.exact_everywhere && !all_stick(*moves)) return std::nullopt;
-    return moves;
+    return leg({from, goal.theta}, goal.p_OF, [&](Moves& moves) {
+      if (moves.empty()) return false;
+      const double drift = moves.back().to.theta - goal.theta;
+      for (Move& move : moves) {
+        move.from.theta -= drift;
+        move.to.theta -= drift;
+      }
+      moves.back().to = goal;
+      // Isotropic pads feel the same at every angle; others are asked again.
+      return search_.exact_everywhere || all_stick(moves);
+    });
   }
 
   bool controllable(const Vec2& p_OF) {
@@ -215,7 +236,7 @@ class FanSearch {
   std::optional<Moves> first_leg_out(const FlatState& start) {
     for (const Vec2& place : branches(start.p_OF)) {
       if (place == start.p_OF) return Moves{};
-      if (auto moves = leg(start, place)) return moves;
+      if (auto moves = leg(start, place, [](Moves&) { return true; })) return moves;
     }
     return std::nullopt;
   }

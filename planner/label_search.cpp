@@ -4,6 +4,8 @@
 #include <cmath>
 #include <queue>
 
+#include "planner/confines.h"
+
 namespace prehensile {
 namespace {
 
@@ -49,9 +51,12 @@ class LabelSearch {
         limits_(limits),
         work_(work),
         contacts_(static_cast<int>(search.contacts.size())) {
+    const TurnWindow window = turns_from(search, start.theta);
+    ways_ = {search.model->c * window.low, search.model->c * window.high};
     nodes_.push_back(start.p_OF);
     rows_.resize(nodes_.size() * contacts_);
     row_known_.resize(nodes_.size() * contacts_, 0);
+    if (search.confines) blocked_.assign(nodes_.size() * contacts_, -1);
     buckets_.assign(nodes_.size() * contacts_ * kBuckets, -1);
     for (const Vec2& node : nodes_) rest_.push_back(least_rest(node));
   }
@@ -132,9 +137,10 @@ class LabelSearch {
     const int row = node * contacts_ + contact;
     if (!row_known_[row]) {
       row_known_[row] = 1;
+      if (blocked(node, contact)) return rows_[row];
       for (int to = 0; to + 1 < static_cast<int>(nodes_.size()); ++to) {
         Leg leg;
-        if (to == node ||
+        if (to == node || blocked(to, contact) ||
             !make_leg(steering_, contact, stop_at(node), stop_at(to), work_, leg)) {
           continue;
         }
@@ -142,6 +148,15 @@ class LabelSearch {
       }
     }
     return rows_[row];
+  }
+
+  bool blocked(int node, int contact) {
+    if (!search_.confines) return false;
+    char& known = blocked_[node * contacts_ + contact];
+    if (known < 0) {
+      known = is_blocked(steering_.search, contact, nodes_[node], work_) ? 1 : 0;
+    }
+    return known > 0;
   }
 
   static void append_edges(const Leg& leg, int to, std::vector<Edge>& edges) {
@@ -164,8 +179,10 @@ class LabelSearch {
       for (const Edge& edge : edges(label.node, contact)) {
         const double cost = cost_after(label, contact, edge.travel);
         if (cost + rest_[edge.to] >= to_beat_) continue;
-        offer({label.lo + edge.lo, label.hi + edge.hi, cost, edge.to, contact, index,
-               label.depth + 1});
+        const double lo = std::max(label.lo + edge.lo, ways_.low);
+        const double hi = std::min(label.hi + edge.hi, ways_.high);
+        if (lo > hi) continue;
+        offer({lo, hi, cost, edge.to, contact, index, label.depth + 1});
       }
     }
   }
@@ -206,7 +223,7 @@ class LabelSearch {
                stop_at(label.node), work_, scratch_.legs[label.depth - 1]);
     }
     const double dtheta = goals_.places[place].theta[angle] - start_.theta;
-    if (!solve_chain(search_, dtheta, scratch_)) {
+    if (!solve_chain(search_, dtheta, scratch_, turns_from(search_, start_.theta))) {
       work_.stopped_by.add(PushConstraint::kRotation);
       return;
     }
@@ -230,9 +247,11 @@ class LabelSearch {
   const Limits& limits_;
   Work& work_;
   int contacts_;
+  TurnWindow ways_;  // limits of c dtheta after every leg [m]
   std::vector<double> rest_;
   std::vector<std::vector<Edge>> rows_;
   std::vector<char> row_known_;
+  std::vector<char> blocked_;  // by node and contact; -1: not known yet
   std::vector<int> buckets_;
   std::vector<Label> labels_;
   std::priority_queue<QueueEntry> queue_;

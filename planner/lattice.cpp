@@ -25,11 +25,13 @@ class LegTable {
     for (std::size_t node = 0; node < nodes.size(); ++node) {
       for (std::size_t contact = 0; contact < contacts_; ++contact) {
         Leg& leg = legs_[node * contacts_ + contact];
+        const int index = static_cast<int>(contact);
+        if (is_blocked(steering.search, index, nodes[node], work)) continue;
         const Stop end{place, true};
         const Stop way_point{nodes[node]};
         const Stop& from = outward ? end : way_point;
         const Stop& to = outward ? way_point : end;
-        if (!make_leg(steering, static_cast<int>(contact), from, to, work, leg)) {
+        if (!make_leg(steering, index, from, to, work, leg)) {
           leg.contact = -1;
         }
       }

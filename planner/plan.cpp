@@ -14,10 +14,17 @@ bool same_placement(const Push& push, const Push& before) {
 }
 
 /// Path length of the finger axis, the turn and the roll in the planner's space [m].
-double travel_of(const Model& model, const Push& push) {
-  if (const auto* roll = std::get_if<Roll>(&push)) return std::abs(roll->travel);
-  const LinearPush linear = as_linear(push);
-  return std::hypot(linear.travel, model.c * linear.turn);
+/// About a point pusher the object turns by another angle than the pusher.
+double travel_of(const Model& model, const PlannedPush& planned) {
+  if (const auto* roll = std::get_if<Roll>(&planned.push)) return std::abs(roll->travel);
+  const LinearPush linear = as_linear(planned.push);
+  if (!model.contacts[static_cast<std::size_t>(linear.contact)].is_point) {
+    return std::hypot(linear.travel, model.c * linear.turn);
+  }
+  const PlanarPose& from = planned.start.X_HO;
+  const PlanarPose& to = planned.end.X_HO;
+  return std::hypot((finger_in_object(to) - finger_in_object(from)).norm(),
+                    model.c * (to.theta - from.theta));
 }
 
 }  // namespace
@@ -58,6 +65,8 @@ std::string_view name(Proof::Kind kind) {
       return "no roll";
     case Proof::Kind::kHalfSpace:
       return "half space";
+    case Proof::Kind::kGoalBeyondLimits:
+      return "goal beyond limits";
   }
   return "unknown";
 }
@@ -92,6 +101,12 @@ std::string_view name(PushConstraint constraint) {
       return "the pushes cannot turn the object as far as needed";
     case PushConstraint::kRealPads:
       return "the push slips with the real pads";
+    case PushConstraint::kThetaLimit:
+      return "the angle of the object would leave its limits";
+    case PushConstraint::kReach:
+      return "the grasp or the hand would leave its reach";
+    case PushConstraint::kCollision:
+      return "the hand or the object would hit an obstacle";
     case PushConstraint::kCount:
       break;
   }
@@ -109,7 +124,7 @@ void account(const Model& model, Plan& plan) {
     if (!before || !same_placement(push, *before)) plan.placements += 1.0;
     const bool same_pusher = before && contact_of(push) == contact_of(*before);
     plan.published_cost += same_pusher ? kSamePusherCost : 1.0;
-    plan.travel += travel_of(model, push);
+    plan.travel += travel_of(model, plan.pushes[i]);
   }
   plan.cost = plan.placements + plan.travel / model.L;
 }

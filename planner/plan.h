@@ -52,6 +52,7 @@ struct Proof {
     kNoRoll,         ///< the goal fixes psi and nothing can roll the object
     kHalfSpace,      ///< every possible push moves p_OF into a half-plane that excludes
                      ///< the goal; direction = its normal
+    kGoalBeyondLimits,  ///< the limits of the scene exclude every pose of the goal set
   };
   Kind kind = Kind::kNone;
   PlanarTwist twist = PlanarTwist::Zero();

@@ -6,11 +6,14 @@
 #include "planner/baselines.h"
 #include "planner/bounds.h"
 #include "planner/catalogue.h"
+#include "planner/confines.h"
 #include "planner/exact_check.h"
 #include "planner/frame.h"
+#include "planner/meet_end.h"
 #include "planner/polish.h"
 #include "planner/push_search.h"
 #include "planner/refuse.h"
+#include "planner/run_search.h"
 #include "primitives/uncertainty.h"
 
 namespace prehensile {
@@ -21,13 +24,14 @@ constexpr double kShareOfTime = 0.7;
 
 Plan search_plan(const SearchModel& search, const PlanOptions& options, Work& work) {
   const Scene& scene = search.model->scene;
+  const Goal goal = goal_within_limits(scene);
   if (find_planner(options.planner)->family == PlannerFamily::kBaseline) {
-    return search_by_baseline(search, scene.start, *scene.goal, options, work);
+    return search_by_baseline(search, scene.start, goal, options, work);
   }
   if (frame_is_built()) {
-    return solve_in_frame(search, scene.start, *scene.goal, options, work);
+    return solve_in_frame(search, scene.start, goal, options, work);
   }
-  return search_pushes(search, scene.start, *scene.goal, options, work);
+  return search_pushes(search, scene.start, goal, options, work);
 }
 
 void set_undecided(Plan& plan, std::string message) {
@@ -45,13 +49,16 @@ void finish(const SearchModel& search, const PlanOptions& options, const Limits&
   if (work.meter) work.meter->enter("polish");
   if (options.polish) {
     Plan shorter = plan;
+    improve_by_run(search, limits, work, shorter);
     polish(search, limits, work, shorter);
+    meet_ends(model, options.transition, shorter);
     if (check_exactly(model, options.transition, shorter, &why)) {
       plan = std::move(shorter);
       return;
     }
     plan.instants = shorter.instants;
   }
+  meet_ends(model, options.transition, plan);
   if (check_exactly(model, options.transition, plan, &why)) return;
   set_undecided(plan, "the plan found fails its exact check: " + why);
 }
@@ -149,6 +156,7 @@ void keep_as_nominal(const Model& model, const PlanOptions& options, const Found
                      Plan& plan) {
   Plan nominal = found.plan;
   nominal.margin = Margin::none();
+  meet_ends(model, options.transition, nominal);
   if (nominal.pushes.empty() ||
       !check_exactly(model, options.transition, nominal, nullptr) ||
       !reaches(*model.scene.goal, nominal.goal)) {
@@ -215,6 +223,13 @@ Plan decide(const Model& model, const PlanOptions& options) {
     plan.status = PlanStatus::kNothingToDo;
     return plan;
   }
+  if (model.scene.obstacles && !collisions_are_built()) {
+    plan.status = PlanStatus::kUnsupported;
+    plan.message =
+        "the scene names obstacles, and this build has no collision library "
+        "(PREHENSILE_OBSTACLES)";
+    return plan;
+  }
   plan.proof = find_proof(model);
   if (plan.proof.kind != Proof::Kind::kNone) {
     plan.status = PlanStatus::kInfeasible;
@@ -236,7 +251,7 @@ Plan decide(const Model& model, const PlanOptions& options) {
 
 void set_bound(const Model& model, Plan& plan) {
   const Grasp& start = model.scene.start;
-  const Goal& goal = *model.scene.goal;
+  const Goal goal = goal_within_limits(model.scene);
   if (!plan.usable()) {
     plan.lower_bound = trivial_bound(model, start, goal);
     return;

@@ -49,7 +49,8 @@ bool chain_of(const Steering& steering, const Stretch& stretch,
     }
     from = to;
   }
-  return solve_chain(steering.search, stretch.end.theta - stretch.start.theta, chain);
+  return solve_chain(steering.search, stretch.end.theta - stretch.start.theta, chain,
+                     turns_from(steering.search, stretch.start.theta));
 }
 
 /// The best chain of a stretch that still sticks with the real pad; false if it gains

@@ -145,6 +145,44 @@ bool verify_goal_falls(const Model& model, std::string* why) {
   return !model.contacts.empty() || refuse(why, "there is no contact");
 }
 
+/// Whether limits on the angle exclude every angle of the goal set.
+bool angle_is_beyond(const Goal& goal, const GraspLimits& limits) {
+  if (!goal.theta) return false;
+  const double slack = angle_tolerance(goal) + 1e-9;
+  double theta = *goal.theta;
+  if (goal.theta_is == ThetaMeaning::kNumber) {
+    return (limits.theta_low && theta + slack < *limits.theta_low) ||
+           (limits.theta_high && theta - slack > *limits.theta_high);
+  }
+  if (!limits.theta_low || !limits.theta_high) return false;
+  // The lowest winding that is not below the limits is above them.
+  const double turns = std::ceil((*limits.theta_low - theta - slack) / (2.0 * kPi));
+  theta += 2.0 * kPi * turns;
+  return theta - slack > *limits.theta_high;
+}
+
+/// Whether limits on the place of the finger axis exclude it at every pose of the goal.
+bool place_is_beyond(const Goal& goal, const GraspLimits& limits) {
+  if (!goal.x || !goal.y || (!limits.finger_low && !limits.finger_high)) return false;
+  const Vec2 position{*goal.x, *goal.y};
+  return for_all_goal_angles(goal, [&](double theta, double half_step) {
+    const Vec2 p_OF = -rotated(-theta, position);
+    const double slack = place_tolerance(goal) + half_step * position.norm() + 1e-9;
+    return (limits.finger_low &&
+            (p_OF.array() + slack < limits.finger_low->array()).any()) ||
+           (limits.finger_high &&
+            (p_OF.array() - slack > limits.finger_high->array()).any());
+  });
+}
+
+bool verify_goal_beyond_limits(const Model& model, std::string* why) {
+  if (!model.scene.limits) return refuse(why, "the scene has no limits");
+  const Goal& goal = *model.scene.goal;
+  const GraspLimits& limits = *model.scene.limits;
+  return angle_is_beyond(goal, limits) || place_is_beyond(goal, limits) ||
+         refuse(why, "a pose of the goal may be within the limits");
+}
+
 bool verify_no_roll(const Model& model, std::string* why) {
   const Goal& goal = *model.scene.goal;
   const double off =
@@ -218,6 +256,8 @@ bool verify(const Model& model, const Proof& proof, std::string* why) {
       return verify_no_pusher(model, why);
     case Proof::Kind::kNoRoll:
       return verify_no_roll(model, why);
+    case Proof::Kind::kGoalBeyondLimits:
+      return verify_goal_beyond_limits(model, why);
     case Proof::Kind::kHalfSpace:
       return verify_half_space(model, proof, why);
     case Proof::Kind::kNone:

@@ -7,6 +7,7 @@
 #include "planner/bounds.h"
 #include "planner/catalogue.h"
 #include "planner/chain_search.h"
+#include "planner/confines.h"
 #include "planner/fallback.h"
 #include "planner/fan_search.h"
 #include "planner/holding.h"
@@ -34,7 +35,10 @@ std::optional<Move> best_contact(const SearchModel& search, const FlatState& fro
     if (!(slack >= -kStickTolerance)) {
       work.stopped_by.add(constraint_of(search.contacts[i], from.p_OF, to.p_OF));
     }
-    if (!(slack > best_slack) || !pads_hold_gravity(search, move, work)) continue;
+    if (!(slack > best_slack) || !pads_hold_gravity(search, move, work) ||
+        !is_confined(search, move, work)) {
+      continue;
+    }
     best_slack = slack;
     best = move;
   }
@@ -51,11 +55,6 @@ std::vector<Move> moves_of(const SearchModel& search, const FlatState& start,
     theta = moves.back().to.theta;
   }
   return moves;
-}
-
-void append_chain(const SearchModel& search, const FlatState& start, const Chain& chain,
-                  Plan& plan) {
-  for (const Move& move : moves_of(search, start, chain)) append_move(search, move, plan);
 }
 
 /// The stages that know the pads themselves: they cost more, and find what the ellipsoid
@@ -228,6 +227,11 @@ void conclude_search(const SearchModel& search, const Goal& goal,
     return;
   }
   plan.status = PlanStatus::kReachedGoal;
+}
+
+void append_chain(const SearchModel& search, const FlatState& start, const Chain& chain,
+                  Plan& plan) {
+  for (const Move& move : moves_of(search, start, chain)) append_move(search, move, plan);
 }
 
 Plan search_pushes(const SearchModel& search, const Grasp& start, const Goal& goal,

@@ -7,6 +7,7 @@
 
 #include <optional>
 
+#include "planner/chain.h"
 #include "planner/frame.h"
 #include "planner/goal.h"
 #include "planner/limits.h"
@@ -42,5 +43,9 @@ Plan blank_plan(const SearchModel& search, const Grasp& start,
 
 /// Appends the push of a move, from where the plan has come.
 void append_move(const SearchModel& search, const Move& move, Plan& plan);
+
+/// Appends the pushes of a solved chain.
+void append_chain(const SearchModel& search, const FlatState& start, const Chain& chain,
+                  Plan& plan);
 
 }  // namespace prehensile

@@ -24,6 +24,8 @@ std::string sentence(Proof::Kind kind) {
     case Proof::Kind::kHalfSpace:
       return "every possible push moves the finger axis into a half-plane that does not "
              "contain the goal";
+    case Proof::Kind::kGoalBeyondLimits:
+      return "the limits of the scene exclude every pose of the goal";
     case Proof::Kind::kNone:
       break;
   }
@@ -73,7 +75,8 @@ Proof find_proof(const Model& model) {
   if (!model.scene.goal) return proof;
   const Goal& goal = *model.scene.goal;
   using Kind = Proof::Kind;
-  for (const Kind kind : {Kind::kNoPusher, Kind::kGoalOffObject, Kind::kNoRoll}) {
+  for (const Kind kind :
+       {Kind::kNoPusher, Kind::kGoalOffObject, Kind::kGoalBeyondLimits, Kind::kNoRoll}) {
     if (accept(model, make_proof(kind), proof)) return proof;
   }
   const Proof start =

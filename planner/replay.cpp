@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "planner/bounds.h"
+#include "planner/confines.h"
+#include "planner/confines_check.h"
 #include "planner/exact_check.h"
 #include "planner/planner.h"
 #include "planner/space_margin.h"
@@ -106,8 +108,12 @@ bool agrees(double stated, double computed) {
   return std::abs(stated - computed) <= kCostTolerance * std::max(1.0, computed);
 }
 
-/// S, T, J and the bound counted again, T from the poses instead of the pushes.
+/// S, T, J and the bound counted again, T from the poses instead of the pushes. Costs of
+/// pushes that cannot be replayed at all are not counted: they are wrong.
 bool costs_are_right(const Model& model, const Plan& plan) {
+  for (const PlannedPush& push : plan.pushes) {
+    if (!unusable(model, push).empty()) return false;
+  }
   Plan counted;
   counted.pushes = plan.pushes;
   account(model, counted);
@@ -131,7 +137,8 @@ bool bound_is_right(const Model& model, const Plan& plan) {
       plan.lower_bound > plan.cost * (1.0 + kCostTolerance)) {
     return false;
   }
-  return bound_holds(model, model.scene.start, *model.scene.goal, plan.lower_bound);
+  return bound_holds(model, model.scene.start, goal_within_limits(model.scene),
+                     plan.lower_bound);
 }
 
 bool poses_connect(const Plan& plan, const ReplayOptions& options) {
@@ -156,6 +163,7 @@ std::string first_disagreement(const Model& model, const Plan& plan,
   std::string why;
   const bool shifts = plan.margin.grasp + plan.margin.tilt > 0.0;
   if (shifts && !stays_on_object(model, plan, &why)) return why;
+  if (!replay.confinement.empty()) return replay.confinement;
   if (!replay.reaches_goal) return "the object does not end at the goal";
   if (!replay.costs_right) return "the costs are not those of the pushes";
   if (!replay.bound_right) return "the lower bound of the cost cannot be proved";
@@ -173,6 +181,7 @@ Replay replay(const Model& model, const Plan& plan, const ReplayOptions& options
   result.connected = poses_connect(plan, options);
   result.end = start;
   double travelled = 0.0;
+  std::vector<PlannedPush> replayed_pushes;
   for (const PlannedPush& planned : plan.pushes) {
     result.pushes.push_back(replay_push(model, carried(plan.margin, travelled),
                                         result.end, planned, options));
@@ -180,8 +189,10 @@ Replay replay(const Model& model, const Plan& plan, const ReplayOptions& options
     const ReplayedPush& replayed = result.pushes.back();
     result.instants += replayed.transition.instants;
     if (!replayed.transition.completed()) break;
+    replayed_pushes.push_back({planned.push, result.end, replayed.transition.end});
     result.end = replayed.transition.end;
   }
+  result.confinement = confinement_fault(model, replayed_pushes);
   if (model.scene.goal) {
     result.reaches_goal = reaches(*model.scene.goal, result.end);
     result.costs_right = costs_are_right(model, plan);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "planner/confines.h"
+#include "planner/ring_kappas.h"
 #include "planner/segment.h"
 
 namespace prehensile {
@@ -42,6 +44,22 @@ void add_point(const Model& model, int index, double room,
   contact.stick.a -= room * contact.stick.t;
   contact.stick.b += room * contact.stick.t;
   contacts.push_back(contact);
+}
+
+void add_contacts(const Model& model, const Margin& margin,
+                  std::vector<SearchContact>& contacts) {
+  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
+    const PushContact& contact = model.contacts[i];
+    const int index = static_cast<int>(i);
+    const double half_face = 0.5 * (contact.b - contact.a).norm();
+    if (contact.is_point) {
+      add_point(model, index, half_face - margin.place, contacts);
+    } else if (contact.half_length >= half_face) {
+      add_line(model, index, 0.0, contacts);
+    } else {
+      add_short_line(model, index, half_face - contact.half_length, contacts);
+    }
+  }
 }
 
 bool held(const SearchModel& search, const PushContact& contact, const Vec2& p_OF) {
@@ -150,18 +168,11 @@ SearchModel prepare_search(const Model& model, const Margin& margin) {
   search.exact_everywhere =
       model.region.is_isotropic() && model.region.is_fixed_in_hand();
   if (!(model.F > 0.0 && model.c > 0.0)) return search;
-  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
-    const PushContact& contact = model.contacts[i];
-    const int index = static_cast<int>(i);
-    const double half_face = 0.5 * (contact.b - contact.a).norm();
-    if (contact.is_point) {
-      add_point(model, index, half_face - margin.place, search.contacts);
-    } else if (contact.half_length >= half_face) {
-      add_line(model, index, 0.0, search.contacts);
-    } else {
-      add_short_line(model, index, half_face - contact.half_length, search.contacts);
-    }
+  if (search.exact_everywhere && margin.is_none()) {
+    search.rings = std::make_shared<const RingTable>(model);
   }
+  add_contacts(model, margin, search.contacts);
+  search.confines = Confines::of(search);
   return search;
 }
 
@@ -224,7 +235,13 @@ double move_slack(const SearchModel& search, const Move& move, int points,
     const double share = static_cast<double>(i) / (points - 1);
     least = std::min(least, pad_test(search, move, place, share, margin).slack);
   }
-  return least;
+  if (!search.exact_everywhere || !(least >= -kStickTolerance)) return least;
+  const Motion motion(move.from, move.to);
+  const PushContact& contact =
+      search.model->contacts[search.contacts[move.contact].contact];
+  return std::min(least,
+                  ring_slack(*search.model, contact, move.from.p_OF,
+                             motion.direction(contact.n), motion.travel(), motion.omega));
 }
 
 bool path_on_object(const Model& model, const PathEnd& from, const PathEnd& to,

@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -49,6 +50,9 @@ struct SearchContact {
   double place_low = 0.0, place_high = 0.0;  ///< [m] equal to `place` for a line pusher
 };
 
+class Confines;
+class RingTable;
+
 /// The model as the search sees it.
 struct SearchModel {
   const Model* model = nullptr;
@@ -56,6 +60,8 @@ struct SearchModel {
   std::vector<SearchContact> contacts;
   bool exact_everywhere = false;  ///< isotropic pad: no move needs the pad check
   Vec2 p_OF_start = Vec2::Zero();
+  std::shared_ptr<const Confines> confines;  ///< null where the scene names none
+  std::shared_ptr<const RingTable> rings;  ///< of round pads, for plans without a margin
 
   /// The margin of a push that begins here: tilted pushes have carried the finger axis
   /// off its place by a share of its way, of which the straight one is the least. The

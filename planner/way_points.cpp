@@ -79,7 +79,8 @@ void add_way_point(const Steering& steering, double theta_start, const GoalPlace
   chain.legs[1] = second;
   const GoalPlace& goal = goals.places[place];
   for (int angle = 0; angle < goal.count; ++angle) {
-    if (!solve_chain(search, goal.theta[angle] - theta_start, chain)) continue;
+    const TurnWindow window = turns_from(search, theta_start);
+    if (!solve_chain(search, goal.theta[angle] - theta_start, chain, window)) continue;
     best.add({chain.cost, first.contact, second.contact, first.to, place, angle});
   }
 }

@@ -77,7 +77,7 @@ Sample sample_of(const ContactReading& reading, InstantStatus status,
   return sample;
 }
 
-Obstacle obstacle_of(InstantStatus status) noexcept {
+PushStop stop_of(InstantStatus status) noexcept {
   using enum TransitionStatus;
   switch (status) {
     case InstantStatus::kMoves:

@@ -72,6 +72,6 @@ Sample sample_of(const ContactReading& reading, InstantStatus status,
                  double push_force) noexcept;
 
 /// Why a push cannot go on with an instant of this status.
-Obstacle obstacle_of(InstantStatus status) noexcept;
+PushStop stop_of(InstantStatus status) noexcept;
 
 }  // namespace prehensile

@@ -30,7 +30,7 @@ PathLimits::Values PathLimits::at(const SeatGeometry& geometry, const Seat& seat
           whole ? model_->region.whole_margin(X_HO) : -model_->region.whole_margin(X_HO)};
 }
 
-Obstacle PathLimits::obstacle(Limit limit, const Seat& seat) const {
+PushStop PathLimits::why_not(Limit limit, const Seat& seat) const {
   using enum TransitionStatus;
   switch (limit) {
     case Limit::kRoom:

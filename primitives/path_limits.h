@@ -31,7 +31,7 @@ class PathLimits {
             const PlanarPose& X_HO, bool whole) const noexcept;
 
   /// What to report when a limit that ends the push is reached.
-  Obstacle obstacle(Limit limit, const Seat& seat) const;
+  PushStop why_not(Limit limit, const Seat& seat) const;
 
  private:
   const Model* model_;

@@ -137,7 +137,7 @@ bool PrismRoll::keeps_straight(const PrismLook& look) const {
   return loads.high[kJaw1] >= loads.low[kJaw1] && lines_suffice(loads);
 }
 
-Obstacle PrismRoll::obstacle(double phi, const PrismLook& look) const {
+PushStop PrismRoll::why_not(double phi, const PrismLook& look) const {
   using enum TransitionStatus;
   if (!look.contacts.held())
     return {kPadLost, EventKind::kPadOffFace, "a pad has nothing left to touch"};

@@ -53,7 +53,7 @@ class PrismRoll {
   Grasp grasp(double phi) const;
 
   /// Why a look is no roll.
-  Obstacle obstacle(double phi, const PrismLook& look) const;
+  PushStop why_not(double phi, const PrismLook& look) const;
 
  private:
   PadReach pads(double phi) const;

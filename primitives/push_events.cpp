@@ -159,10 +159,10 @@ template <class Instant>
 void PushRun<Instant>::stop_at_block(double beyond) {
   error_ += (beyond - s_) * instant_.speed();
   if (traced_ && !instant_.solve(seat_, s_, q_)) record_.add(instant_.sample(s_, psi_));
-  if (obstacle_.status == TransitionStatus::kFalls) return record_.stop(obstacle_, s_);
+  if (stop_.status == TransitionStatus::kFalls) return record_.stop(stop_, s_);
   const Vec2 q = rides() ? q_ : Vec2(q_ + (beyond - s_) * rate_);
-  const Obstacle met = instant_.solve(seat_, beyond, q, kAllMotions);
-  record_.stop(instant_.explained(met ? met : obstacle_), s_);
+  const PushStop met = instant_.solve(seat_, beyond, q, kAllMotions);
+  record_.stop(instant_.explained(met ? met : stop_), s_);
 }
 
 template class PushRun<PushInstant>;

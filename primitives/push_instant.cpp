@@ -54,7 +54,7 @@ void PushInstant::pose_question(const Seat& seat, double s, const Vec2& q) noexc
   now.drive.V_HP = pusher_twist(push_, X_HO_start_, s);
 }
 
-Obstacle PushInstant::solve(const Seat& seat, double s, const Vec2& q,
+PushStop PushInstant::solve(const Seat& seat, double s, const Vec2& q,
                             Search search) noexcept {
   pose_question(seat, s, q);
   Answer& now = answers_[now_];
@@ -74,10 +74,10 @@ Obstacle PushInstant::solve(const Seat& seat, double s, const Vec2& q,
       now.instant = solve_planar(now.grasp, now.drive, loose, &warm_);
     }
   }
-  const Obstacle obstacle = obstacle_of(now.instant.status);
-  if (obstacle) {
+  const PushStop stop = stop_of(now.instant.status);
+  if (stop) {
     warm_.valid = false;
-    return obstacle;
+    return stop;
   }
   now.solved = true;
   now.V_HO = now.instant.V_HO;
@@ -139,19 +139,19 @@ double PushInstant::ride_lasts(double most) const noexcept {
 
 bool PushInstant::recedes() const { return recedes_somewhere(answer().drive); }
 
-Obstacle PushInstant::explained(const Obstacle& obstacle) const noexcept {
+PushStop PushInstant::explained(const PushStop& stop) const noexcept {
   using enum TransitionStatus;
-  Obstacle found = obstacle;
+  PushStop found = stop;
   if (is_ellipsoid()) {
     const bool held = model_->surface().load(answer().grasp.w_g) < 1.0;
     if (found.status != kAmbiguous || held) return found;
     return {kFalls, EventKind::kGravityLost, "the grasp alone does not hold gravity"};
   }
-  if (obstacle.status == kPusherLost) {
+  if (stop.status == kPusherLost) {
     PlanarSolveOptions thorough = options_;
     thorough.probe_multiplicity = true;
     const PlanarInstant all = solve_planar(answer().grasp, answer().drive, thorough);
-    if (all.status == InstantStatus::kAmbiguous) found = obstacle_of(all.status);
+    if (all.status == InstantStatus::kAmbiguous) found = stop_of(all.status);
   }
   if (found.status != kAmbiguous || gravity_slack(answer().grasp) > kHeld) return found;
   return {kFalls, EventKind::kGravityLost, "the grasp alone does not hold gravity"};

@@ -20,7 +20,7 @@ class PushInstant {
   static constexpr bool kSmoothBeyondMode = true;
 
   /// Solves the instant at the share s of the push with the object at q in the seat.
-  Obstacle solve(const Seat& seat, double s, const Vec2& q,
+  PushStop solve(const Seat& seat, double s, const Vec2& q,
                  Search search = Search::kOneMotion) noexcept;
 
   /// The instant in a prescribed contact mode, lawful or not: smooth beyond the end of
@@ -38,10 +38,10 @@ class PushInstant {
   /// unique, and `kAllMotions` has to be asked.
   bool recedes() const;
 
-  /// The reason behind an obstacle that the last instant met: a pusher that leaves the
+  /// The reason behind a stop that the last instant met: a pusher that leaves the
   /// object might drag it along as well, and an instant is called ambiguous also where
   /// the pusher has to carry the object.
-  Obstacle explained(const Obstacle& obstacle) const noexcept;
+  PushStop explained(const PushStop& stop) const noexcept;
 
   /// Keeps the last answer while others are sought, and brings it back.
   void set_aside() { now_ = 1 - now_; }

@@ -38,12 +38,12 @@ void PushRecord::add_passing(EventKind kind, double s) {
   if (transition_.event_count < Transition::kMaxEvents - 1) add(kind, s);
 }
 
-void PushRecord::stop(const Obstacle& obstacle, double s) {
-  transition_.status = obstacle.status;
-  transition_.reason = obstacle.reason;
+void PushRecord::stop(const PushStop& why, double s) {
+  transition_.status = why.status;
+  transition_.reason = why.reason;
   const bool room = transition_.event_count < Transition::kMaxEvents;
-  if (obstacle.event && room) {
-    transition_.events[transition_.event_count++] = {*obstacle.event, s};
+  if (why.event && room) {
+    transition_.events[transition_.event_count++] = {*why.event, s};
   }
 }
 

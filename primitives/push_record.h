@@ -9,7 +9,7 @@
 namespace prehensile {
 
 /// Why a push cannot go on; status kNotRun: it can.
-struct Obstacle {
+struct PushStop {
   TransitionStatus status = TransitionStatus::kNotRun;
   std::optional<EventKind> event;
   std::string_view reason;
@@ -34,7 +34,7 @@ class PushRecord {
   /// Forgets the last event, which turned out not to be one.
   void take_back() { --transition_.event_count; }
 
-  void stop(const Obstacle& obstacle, double s);
+  void stop(const PushStop& why, double s);
   bool stopped() const { return transition_.status != TransitionStatus::kNotRun; }
 
   /// Path of the contact along the pusher [m].

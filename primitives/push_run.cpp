@@ -86,13 +86,13 @@ bool PushRun<Instant>::ride() {
   const InMode found = instant_.check_ride(seat_, end);
   if (found == InMode::kMoves && mode_margin() < -instant_.noise()) return true;
   const bool last = step_.h == 1.0 - s_ || traced_ || instant_.recedes();
-  obstacle_ = {};
+  stop_ = {};
   if (found == InMode::kUnheld) {
-    obstacle_ = kUnheldPush;
+    stop_ = kUnheldPush;
   } else if (last || found == InMode::kUnknown) {
-    obstacle_ = instant_.solve(seat_, end, q_, kAllMotions);
+    stop_ = instant_.solve(seat_, end, q_, kAllMotions);
   }
-  if (!obstacle_) return true;
+  if (!stop_) return true;
   block(end);
   return false;
 }
@@ -166,7 +166,7 @@ void PushRun<Instant>::pass(const Crossing& crossing) {
   } else if (*crossing.limit == Limit::kWholePad) {
     whole_ = !whole_;
   } else {
-    stop(limits_.obstacle(*crossing.limit, seat_));
+    stop(limits_.why_not(*crossing.limit, seat_));
   }
 }
 
@@ -222,16 +222,16 @@ void PushRun<Instant>::take_seat(const Seat& seat, EventKind event) {
 }
 
 template <class Instant>
-void PushRun<Instant>::stop(const Obstacle& obstacle) {
-  record_.stop(obstacle, s_);
+void PushRun<Instant>::stop(const PushStop& why) {
+  record_.stop(why, s_);
 }
 
 /// Solves the instant at the present state; stops the push if there is no motion.
 template <class Instant>
 bool PushRun<Instant>::solve_here() {
-  const Obstacle obstacle = instant_.solve(seat_, s_, q_, kAllMotions);
-  if (obstacle) {
-    record_.stop(instant_.explained(obstacle), s_);
+  const PushStop why = instant_.solve(seat_, s_, q_, kAllMotions);
+  if (why) {
+    record_.stop(instant_.explained(why), s_);
     return false;
   }
   rate_ = instant_.rate();

@@ -79,7 +79,7 @@ class PushRun {
 
   /// Weight of an angle for pads that cannot exert a torque, over the size of the object.
   static constexpr double kLeastReach = 0.01;
-  static constexpr Obstacle kUnheldPush{TransitionStatus::kFalls, EventKind::kGravityLost,
+  static constexpr PushStop kUnheldPush{TransitionStatus::kFalls, EventKind::kGravityLost,
                                         "the grasp alone does not hold gravity"};
 
   void begin();
@@ -116,7 +116,7 @@ class PushRun {
   void take_seat(const Seat& seat, EventKind event);
   void take_regime(Regime regime);
   bool solve_here();
-  void stop(const Obstacle& obstacle);
+  void stop(const PushStop& why);
   bool rides() const {
     return seat_.kind == SeatKind::kFlush && regime_ == Regime::kStick;
   }
@@ -147,7 +147,7 @@ class PushRun {
   double least_at_ = 0.0;       ///< [share of the push] where that is
   double dip_at_ = kNever;      ///< [share of the step] a place inside, beyond the mode
   double dip_margin_ = 0.0;
-  Obstacle obstacle_;
+  PushStop stop_;
   Regime regime_ = Regime::kStick;
   int attempts_ = 0;
   const bool traced_;

@@ -181,16 +181,16 @@ void PushRun<Instant>::doubt_stiff_step(bool kink) {
 /// no other.
 template <class Instant>
 bool PushRun<Instant>::rate_at_end(double s, const Vec2& q, Vec2& out) {
-  obstacle_ = instant_.solve(seat_, s, q, kAllMotions);
-  if (obstacle_ || mode_margin() < -instant_.noise()) {
+  stop_ = instant_.solve(seat_, s, q, kAllMotions);
+  if (stop_ || mode_margin() < -instant_.noise()) {
     // Beyond the end of the mode, if the mode says so.
-    const Obstacle met = obstacle_;
+    const PushStop met = stop_;
     instant_.set_aside();
     const bool beyond = instant_.solve_in_mode(seat_, s, q, regime_) == InMode::kMoves &&
                         mode_margin() < -instant_.noise();
     if (!beyond) instant_.bring_back();
     if (!beyond && met) return false;
-    obstacle_ = {};
+    stop_ = {};
   }
   out = instant_.rate();
   return true;
@@ -202,8 +202,8 @@ template <class Instant>
 bool PushRun<Instant>::rate_in_mode(double s, const Vec2& q, Vec2& out) {
   const InMode found = instant_.solve_in_mode(seat_, s, q, regime_);
   if (found != InMode::kMoves) {
-    obstacle_ = found == InMode::kUnheld ? kUnheldPush : instant_.solve(seat_, s, q);
-    if (obstacle_) return false;
+    stop_ = found == InMode::kUnheld ? kUnheldPush : instant_.solve(seat_, s, q);
+    if (stop_) return false;
   }
   out = instant_.rate();
   return true;

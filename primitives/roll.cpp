@@ -57,7 +57,7 @@ bool rolls(const CrossSectionModel& section, double sheet_rate,
 }
 
 /// Why an instant is no roll.
-Obstacle obstacle_of(const CrossSectionInstant& instant) {
+PushStop stop_of(const CrossSectionInstant& instant) {
   switch (instant.status) {
     case InstantStatus::kAmbiguous:
       return {
@@ -185,7 +185,7 @@ Transition apply_roll(const Model& model, const Grasp& start, const Roll& roll,
                           instant,     certificate};
   record.add(sample_at(constant, 0.0));
   if (!record.stopped() && !rolls(gripped, roll.travel, instant)) {
-    record.stop(obstacle_of(instant), 0.0);
+    record.stop(stop_of(instant), 0.0);
   } else if (!record.stopped() &&
              !lines_suffice(model, contact, start, instant, section.weight)) {
     record.stop({TransitionStatus::kRefused,

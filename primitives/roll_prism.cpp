@@ -80,7 +80,7 @@ class Walk {
   void stop(double phi, const PrismLook& look) {
     const bool failed = !(look.certificate <= options_.certificate_tolerance) &&
                         look.instant.status != InstantStatus::kNotRun;
-    const Obstacle why = roll_.obstacle(phi, look);
+    const PushStop why = roll_.why_not(phi, look);
     if (failed && why.status != TransitionStatus::kUncertified) {
       record_.stop(
           {TransitionStatus::kUncertified, {}, "an instant failed its certificate"},

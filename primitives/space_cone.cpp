@@ -76,9 +76,9 @@ SpatialVerdict sticks_in_space(const Model& model, const Grasp& grasp, int conta
                         .turn = is_point ? 0.0 : kTravel * omega_per_speed};
   SpatialPushInstant instant(model, push, grasp, {});
   const Seat seat = instant.geometry().first();
-  const Obstacle obstacle = instant.solve(seat, 0.0, Vec2::Zero());
+  const PushStop stop = instant.solve(seat, 0.0, Vec2::Zero());
   SpatialVerdict verdict;
-  switch (obstacle.status) {
+  switch (stop.status) {
     case TransitionStatus::kNotRun:
       verdict.is_known = true;
       verdict.margin = instant.margin(seat, Regime::kStick).least();

@@ -94,22 +94,22 @@ void SpatialPushInstant::pose_question(const Seat& seat, double s,
                                    {.follow_free_pressure = true});
 }
 
-Obstacle SpatialPushInstant::solve(const Seat& seat, double s, const Vec2& q,
+PushStop SpatialPushInstant::solve(const Seat& seat, double s, const Vec2& q,
                                    Search search) noexcept {
   pose_question(seat, s, q);
   Answer& now = answers_[now_];
   const bool probe = search == Search::kAllMotions && recedes();
-  if (now.answered && (now.probed || !probe)) return now.obstacle;
+  if (now.answered && (now.probed || !probe)) return now.stop;
   options_.probe_multiplicity = probe;
   now.answered = true;
   now.probed = probe;
-  now.obstacle = ask(now);
-  if (now.obstacle) warm_.valid = false;
-  return now.obstacle;
+  now.stop = ask(now);
+  if (now.stop) warm_.valid = false;
+  return now.stop;
 }
 
 /// Solves the question that was posed and reads the answer.
-Obstacle SpatialPushInstant::ask(Answer& now) noexcept {
+PushStop SpatialPushInstant::ask(Answer& now) noexcept {
   using enum TransitionStatus;
   if (now.problem.count == 0) {
     const bool falls = model_->F <= 0.0;
@@ -125,7 +125,7 @@ Obstacle SpatialPushInstant::ask(Answer& now) noexcept {
     loose.tolerance = kLooseTolerance;
     now.instant = solve_spatial(now.problem, loose, &warm_);
   }
-  if (const Obstacle obstacle = obstacle_of(now.instant.status)) return obstacle;
+  if (const PushStop stop = stop_of(now.instant.status)) return stop;
   read(now);
   now.out_of_plane = leaves_plane(now);
   now.pattern = pattern_of(now.problem, now.instant);
@@ -204,10 +204,10 @@ std::string_view SpatialPushInstant::way_out(const Answer& now) const noexcept {
   return "the object moves along the closing direction";
 }
 
-Obstacle SpatialPushInstant::explained(const Obstacle& obstacle) const noexcept {
+PushStop SpatialPushInstant::explained(const PushStop& stop) const noexcept {
   using enum TransitionStatus;
-  Obstacle found = obstacle;
-  if (obstacle.status == kIterationLimit && answer().problem.count > 0) {
+  PushStop found = stop;
+  if (stop.status == kIterationLimit && answer().problem.count > 0) {
     // Where a grasp all but falls it takes for ever to tell whether it does.
     SpatialProblem heavier = answer().problem;
     heavier.w_g *= kHeavier;
@@ -220,12 +220,12 @@ Obstacle SpatialPushInstant::explained(const Obstacle& obstacle) const noexcept 
   }
   const SpatialInstant* seen = &answer().instant;
   SpatialInstant all;
-  if (obstacle.status == kPusherLost) {
+  if (stop.status == kPusherLost) {
     SpatialSolveOptions thorough = options_;
     thorough.probe_multiplicity = true;
     all = solve_spatial(answer().problem, thorough);
     seen = &all;
-    if (all.status == InstantStatus::kAmbiguous) found = obstacle_of(all.status);
+    if (all.status == InstantStatus::kAmbiguous) found = stop_of(all.status);
   }
   // A second motion leaves no evidence of a fall.
   if (found.status != kAmbiguous || !seen->evidence.allFinite()) return found;

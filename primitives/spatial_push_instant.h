@@ -29,7 +29,7 @@ class SpatialPushInstant {
                      const TransitionOptions& options);
 
   /// As in PushInstant; a question that was answered last is not solved again.
-  Obstacle solve(const Seat& seat, double s, const Vec2& q,
+  PushStop solve(const Seat& seat, double s, const Vec2& q,
                  Search search = Search::kOneMotion) noexcept;
 
   /// The lawful instant, whatever its mode.
@@ -40,11 +40,11 @@ class SpatialPushInstant {
   double ride_lasts(double most) const noexcept { return std::min(most, ride_spacing_); }
 
   bool recedes() const { return recedes_somewhere(answer().drive); }
-  Obstacle explained(const Obstacle& obstacle) const noexcept;
+  PushStop explained(const PushStop& stop) const noexcept;
 
   void set_aside() { now_ = 1 - now_; }
   void bring_back() { now_ = 1 - now_; }
-  bool is_solved() const { return !answer().obstacle; }
+  bool is_solved() const { return !answer().stop; }
 
   /// Points that carry load, and how the pusher's do: the rate has a kink where that
   /// changes.
@@ -73,7 +73,7 @@ class SpatialPushInstant {
     Vec2 q = Vec2::Zero();
     bool answered = false;
     bool probed = false;  ///< for other motions
-    Obstacle obstacle;
+    PushStop stop;
     PlanarPose X_HO;
     PlanarDrive drive;
     SpatialProblem problem;
@@ -85,7 +85,7 @@ class SpatialPushInstant {
   };
   const Answer& answer() const { return answers_[now_]; }
   void pose_question(const Seat& seat, double s, const Vec2& q) noexcept;
-  Obstacle ask(Answer& now) noexcept;
+  PushStop ask(Answer& now) noexcept;
   void read(Answer& now) const noexcept;
   double leaves_plane(const Answer& now) const noexcept;
   std::string_view way_out(const Answer& now) const noexcept;

@@ -44,7 +44,7 @@ suite::RunKey parse_run(const std::string& text, const suite::Suite& suite,
     throw BadInput("--only " + text + ": " + what);
   };
   const std::vector<std::string> parts = split(text, ',');
-  if (parts.size() != 3) refuse("expected PROBLEM,PLANNER,SEED");
+  if (parts.size() != 3) refuse("expected PROBLEM,PLANNER,SEED, or a study's name");
   suite::RunKey key{.family = -1, .problem = -1, .planner = -1};
   const std::vector<std::string> problem = split(parts[0], '/');
   std::string families, planners;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "apps/benchmark_studies.h"
 #include "apps/benchmark_text.h"
 #include "apps/table.h"
 
@@ -173,8 +174,10 @@ void add_origin(const Results& results, ReportPage& page) {
   add("build", results.provenance.build);
   add("version", results.provenance.version);
   add("begun (UTC)", results.provenance.date);
-  add("limits of a run", text("%.6g s of processor time, %.6g MB", results.cpu_limit,
-                              results.memory_limit_MB));
+  if (!results.families.empty()) {  // of a suite of studies alone the file below says it
+    add("limits of a run", text("%.6g s of processor time, %.6g MB", results.cpu_limit,
+                                results.memory_limit_MB));
+  }
   add("problems", results.provenance.quick ? "--quick: the first few of each family"
                                            : "all of the suite");
   for (const auto& planner : results.planners) {
@@ -205,9 +208,11 @@ void judge(const std::string& where, const char* what, double p, int tests, int 
 
 std::string benchmark_page(const Results& results, const Summary& summary) {
   ReportPage page;
-  add_success(results, summary, page);
-  add_curves(results, summary, page);
-  add_failures(results, page);
+  if (!results.families.empty()) {
+    add_success(results, summary, page);
+    add_curves(results, summary, page);
+    add_failures(results, page);
+  }
   if (results.planners.size() > 1) {
     page.heading("pairs", "Planner against planner");
     page.paragraph(
@@ -216,10 +221,15 @@ std::string benchmark_page(const Results& results, const Summary& summary) {
         "of tests. Ratios are medians of second over first, where both solve.");
     add_pairs(results, suite::compare_planners(results), "first", "second", page);
   }
+  add_studies(results, page);
   add_origin(results, page);
-  const std::string lead = "<p>" + std::to_string(results.rows.size()) +
-                           " runs of suite " + code(results.suite) + " by prehensile " +
-                           html(results.provenance.version) +
+  const std::string studies =
+      results.studies.empty()
+          ? ""
+          : " and " + std::to_string(results.studies.size()) + " studies";
+  const std::string lead = "<p>" + std::to_string(results.rows.size()) + " runs" +
+                           studies + " of suite " + code(results.suite) +
+                           " by prehensile " + html(results.provenance.version) +
                            ". Tables as CSV lie beside this page.</p>\n";
   return page.str("Benchmark " + results.suite, lead);
 }
@@ -266,6 +276,9 @@ std::string comparison_page(const Results& before, const Results& after,
   page.table({{"file", "version, build, machine, begun"},
               {"before", origin(before)},
               {"after", origin(after)}});
+  if (!before.studies.empty() || !after.studies.empty()) {
+    page.paragraph("Studies are not compared.");
+  }
   return page.str("Benchmark " + before.suite + ": before and after",
                   "<p>" + std::to_string(before.rows.size()) + " and " +
                       std::to_string(after.rows.size()) + " runs.</p>\n");

@@ -8,6 +8,7 @@
 
 #include "apps/benchmark_commands.h"
 #include "apps/benchmark_page.h"
+#include "apps/benchmark_studies.h"
 #include "apps/benchmark_text.h"
 #include "io/plan_file.h"
 #include "io/scene_file.h"
@@ -24,9 +25,14 @@ struct Options {
 };
 
 /// "report.html" and "runs": report_runs.csv.
-fs::path beside(const std::string& page, const char* what) {
+fs::path beside(const std::string& page, const std::string& what) {
   const fs::path file = page;
   return file.parent_path() / (file.stem().string() + '_' + what + ".csv");
+}
+
+void say_page(const Options& options) {
+  if (options.output.empty()) return;
+  std::printf("page: %s, and tables beside it\n", options.output.c_str());
 }
 
 int report(const Options& options) {
@@ -37,16 +43,19 @@ int report(const Options& options) {
       missed(parse_floor(options.floor, results), results, summary).empty();
   if (!options.output.empty()) {
     write_atomically(options.output, benchmark_page(results, summary));
-    write_atomically(beside(options.output, "summary"), summary_csv(results, summary));
-    write_atomically(beside(options.output, "runs"), runs_csv(results));
-    write_atomically(beside(options.output, "pairs"),
-                     comparison_csv(results, suite::compare_planners(results)));
+    if (!results.families.empty()) {
+      write_atomically(beside(options.output, "summary"), summary_csv(results, summary));
+      write_atomically(beside(options.output, "runs"), runs_csv(results));
+      write_atomically(beside(options.output, "pairs"),
+                       comparison_csv(results, suite::compare_planners(results)));
+    }
+    for (const suite::StudyRecord& study : results.studies) {
+      if (study.csv.empty()) continue;
+      write_atomically(beside(options.output, "study_" + study.name), study.csv);
+    }
   }
-  if (options.json) {
-    std::printf("%s\n", to_json(results, summary).dump(2).c_str());
-  } else {
-    std::fputs(describe(results, summary).c_str(), stdout);
-  }
+  print_results(results, summary, options.json);
+  if (!options.json) say_page(options);
   if (meets_floor) return summary.contradictions.empty() ? kDone : kNegative;
   std::fputs(missed(parse_floor(options.floor, results), results, summary).c_str(),
              stderr);
@@ -66,8 +75,10 @@ int compare(const Options& options) {
   const suite::Results before = suite::read_results(options.files[0]);
   const suite::Results after = suite::read_results(options.files[1]);
   const std::vector<suite::Comparison> pairs = suite::compare_results(before, after);
+  const bool has_studies = !before.studies.empty() || !after.studies.empty();
   if (pairs.empty()) {
-    throw BadInput(options.files[1] + ": has no run in common with " + options.files[0]);
+    throw BadInput(options.files[1] + ": has no run in common with " + options.files[0] +
+                   (has_studies ? "; studies are not compared" : ""));
   }
   if (!options.output.empty()) {
     write_atomically(options.output, comparison_page(before, after, pairs));
@@ -81,6 +92,8 @@ int compare(const Options& options) {
   } else {
     for (const Finding& finding : found) std::puts(finding.words.c_str());
   }
+  if (!options.json) say_page(options);
+  if (has_studies && !options.json) std::puts("studies are not compared");
   const bool is_worse = std::any_of(found.begin(), found.end(), [](const Finding& f) {
     return f.change == Change::kWorse;
   });

@@ -64,13 +64,16 @@ int run(const Options& options) {
       suite::read_suite(options.suite.file, suite::names(planners), options.suite.data);
   const suite::ProblemList problems(file, options.suite.quick);
   const std::vector<suite::RunKey> runs = suite::runs_of(file.suite, problems, {});
+  const int studies = static_cast<int>(file.suite.studies.size());
   suite::SlurmJob job;
   job.tasks = options.tasks;
-  if (job.tasks == 0) {
+  if (job.tasks == 0 && !runs.empty()) {
     const double each = seconds_per_run(file, problems, planners, runs);
     job.tasks =
         suite::number_of_tasks(static_cast<int>(runs.size()), each, options.task_seconds);
   }
+  // A study is worth a task.
+  if (options.tasks == 0) job.tasks = std::max(job.tasks, studies);
   std::error_code error;
   fs::create_directories(fs::path(options.folder) / "log", error);
   if (error) throw BadInput(options.folder + ": cannot be made: " + error.message());
@@ -85,7 +88,9 @@ int run(const Options& options) {
   write_atomically(job.folder / "array.sh", array_script(job));
   write_atomically(job.folder / "merge.sh", merge_script(job));
   write_atomically(job.folder / "submit.sh", submit_script(job));
-  std::printf("%zu runs in %d tasks: %s\n", runs.size(), job.tasks,
+  const std::string and_studies =
+      studies > 0 ? " and " + std::to_string(studies) + " studies" : "";
+  std::printf("%zu runs%s in %d tasks: %s\n", runs.size(), and_studies.c_str(), job.tasks,
               (job.folder / "array.sh").c_str());
   std::fflush(stdout);
   if (options.submit) return start_script(job.folder / "submit.sh");

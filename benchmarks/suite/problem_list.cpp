@@ -42,13 +42,6 @@ void find_files(const fs::path& folder, fs::path::const_iterator part,
   }
 }
 
-bool is_below(const fs::path& folder, const fs::path& file) {
-  const fs::path inner = fs::canonical(file);
-  const fs::path outer = fs::canonical(folder);
-  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first ==
-         outer.end();
-}
-
 std::vector<fs::path> files_of(const SuiteFile& suite, const std::string& family,
                                const std::vector<std::string>& patterns) {
   const fs::path folder = suite.folder.empty() ? fs::path(".") : suite.folder;
@@ -71,6 +64,14 @@ std::vector<fs::path> files_of(const SuiteFile& suite, const std::string& family
   return files;
 }
 
+Scene of_walls(const AmongWalls& source, std::uint64_t index) {
+  const auto seed = static_cast<std::uint64_t>(source.seed);
+  Scene scene =
+      random_among_walls(source.square, source.range, source.gravity, seed, index);
+  if (source.theta_window) scene = with_theta_window(scene, *source.theta_window);
+  return source.posts > 0 ? with_obstacles(scene, source.posts, seed, index) : scene;
+}
+
 Scene of_constructed(const Constructed& source, std::uint64_t index) {
   const auto seed = static_cast<std::uint64_t>(source.seed);
   const Scene scene = random_regrasp(source.object, seed, index).scene;
@@ -88,6 +89,13 @@ Scene of_file(const Scene& scene, GoalsFrom goals, int seed, int number) {
 }
 
 }  // namespace
+
+bool is_below(const fs::path& folder, const fs::path& file) {
+  const fs::path inner = fs::canonical(file);
+  const fs::path outer = fs::canonical(folder);
+  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first ==
+         outer.end();
+}
 
 ProblemList::ProblemList(const SuiteFile& file, bool quick) {
   families_.reserve(file.suite.families.size());
@@ -138,10 +146,7 @@ Scene ProblemList::scene(int family, int index) const {
           [&](const PublishedPairs& s) {
             return s.square ? published_square(index) : published_tee(index);
           },
-          [&](const AmongWalls& s) {
-            return random_among_walls(s.square, s.range, s.gravity,
-                                      static_cast<std::uint64_t>(s.seed), number);
-          },
+          [&](const AmongWalls& s) { return of_walls(s, number); },
           [&](const Constructed& s) { return of_constructed(s, number); },
           [&](const Fixtures& s) {
             const auto problem =

@@ -10,6 +10,9 @@
 
 namespace prehensile::suite {
 
+/// Whether a path that exists lies in a folder, links followed.
+bool is_below(const std::filesystem::path& folder, const std::filesystem::path& file);
+
 class ProblemList {
  public:
   /// Finds the files that the suite names; throws BadInput where a pattern matches none,

@@ -8,6 +8,8 @@
 #include <unistd.h>
 
 #include "benchmarks/suite/results_schema.h"
+#include "benchmarks/suite/study_results.h"
+#include "io/document.h"
 
 namespace prehensile::suite {
 namespace {
@@ -46,12 +48,6 @@ std::string machine_name() {
   const char* kernel = ::uname(&system) == 0 ? system.release : "unknown";
   return model + ", " + std::to_string(::sysconf(_SC_NPROCESSORS_ONLN)) +
          " cores, Linux " + kernel;
-}
-
-std::string host_name() {
-  char host[256] = "unknown";
-  if (::gethostname(host, sizeof host - 1) != 0) return "unknown";
-  return host;
 }
 
 std::string date_now() {
@@ -108,8 +104,8 @@ bool agree(const RunRecord& a, const RunRecord& b) {
 }  // namespace
 
 std::string Provenance::digest() const {
-  return digest_of(suite_text + '\n' + (quick ? "quick" : "whole") + '\n' + version +
-                   '\n' + build);
+  return internal::digest_of(suite_text + '\n' + (quick ? "quick" : "whole") + '\n' +
+                             version + '\n' + build);
 }
 
 Provenance provenance_here(const std::string& version) {
@@ -170,6 +166,7 @@ Results read_results(const fs::path& file) {
     results.rows[found->second].record.progress.push_back(
         {progress.real(1), progress.real(2)});
   }
+  results.studies = read_studies(database, file);
   return results;
 }
 
@@ -196,6 +193,7 @@ ResultsWriter::ResultsWriter(const fs::path& file, const Results& header, bool r
                    ", " + found.provenance.version + ", " + found.provenance.build +
                    "): expected the same, or another output file");
   }
+  make_study_tables(*database_);
   read_done();
   std::string places;
   RunRecord blank;
@@ -214,6 +212,20 @@ void ResultsWriter::read_done() {
   while (keys.step()) {
     const auto whole = [&](int column) { return static_cast<int>(keys.integer(column)); };
     done_.insert({whole(0) - 1, whole(2) - 1, whole(1) - 1, whole(3), whole(4)});
+  }
+  studies_done_ = studies_that_ran(*database_);
+}
+
+bool ResultsWriter::add(const StudyRecord& record) {
+  try {
+    database_->begin();
+    const bool is_new = write_study(*database_, record);
+    database_->commit();
+    if (record.has_run()) studies_done_.insert(record.study);
+    return is_new;
+  } catch (...) {
+    database_->roll_back();
+    throw;
   }
 }
 
@@ -258,6 +270,7 @@ Merged merge_results(const std::vector<fs::path>& files, const fs::path& output)
   Merged merged;
   double spent = 0.0;
   std::map<RunKey, RunRecord> rows;
+  std::map<int, StudyRecord> studies;
   Results header;
   for (const fs::path& file : files) {
     Results part = read_results(file);
@@ -279,16 +292,24 @@ Merged merge_results(const std::vector<fs::path>& files, const fs::path& output)
                        ": another result than in the files before it");
       }
     }
+    for (StudyRecord& study : part.studies) {
+      const auto [place, is_new] = studies.try_emplace(study.study, study);
+      if (is_new) continue;
+      ++merged.doubled;
+      if (!place->second.has_run()) place->second = std::move(study);
+    }
     if (merged.files++ == 0) {
       part.rows.clear();
+      part.studies.clear();
       header = std::move(part);
     }
   }
-  merged.rows = static_cast<int>(rows.size());
+  merged.rows = static_cast<int>(rows.size() + studies.size());
   const fs::path temporary = output.string() + ".part" + std::to_string(::getpid());
   try {
     ResultsWriter writer(temporary, header, false);
     for (auto& [key, record] : rows) writer.add({key, std::move(record)});
+    for (const auto& [study, record] : studies) writer.add(record);
     writer.close(spent);
     fs::rename(temporary, output);
   } catch (...) {

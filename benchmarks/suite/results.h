@@ -1,7 +1,8 @@
 /// The results of a suite, in a SQLite file with the schema of OMPL's benchmark database:
 /// a family of problems is an experiment, an entry of the suite's planners a planner
 /// configuration, a run a row. OMPL's `ompl_benchmark_statistics` and Planner Arena read
-/// it. Beside their tables, `suite` holds what the runs came from.
+/// it. Beside their tables, `suite` holds what the runs came from, and `studies` with
+/// `study_charts` what other programs measured.
 #pragma once
 
 #include <filesystem>
@@ -13,6 +14,7 @@
 
 #include "benchmarks/suite/problem_list.h"
 #include "benchmarks/suite/run_record.h"
+#include "benchmarks/suite/study_record.h"
 #include "benchmarks/suite/suite_file.h"
 
 namespace prehensile::suite {
@@ -58,7 +60,8 @@ struct Results {
   };
   std::vector<PlannerInfo> planners;
   double cpu_limit = 0.0, memory_limit_MB = 0.0;
-  std::vector<ResultRow> rows;  ///< by key
+  std::vector<ResultRow> rows;       ///< by key
+  std::vector<StudyRecord> studies;  ///< by their place in the suite
 };
 
 /// The same without rows, before a run.
@@ -80,8 +83,11 @@ class ResultsWriter {
   ResultsWriter& operator=(const ResultsWriter&) = delete;
 
   const std::set<RunKey>& done() const { return done_; }
+  /// Studies that need not run again.
+  const std::set<int>& studies_done() const { return studies_done_; }
   /// False if the row is there already.
   bool add(const ResultRow& row);
+  bool add(const StudyRecord& record);
   /// Adds to the time spent and leaves a single file.
   void close(double wall_time);
 
@@ -91,17 +97,19 @@ class ResultsWriter {
   std::unique_ptr<Database> database_;
   std::unique_ptr<Statement> insert_, insert_progress_;
   std::set<RunKey> done_;
+  std::set<int> studies_done_;
 };
 
 /// How a merge went.
 struct Merged {
   int files = 0;
-  int rows = 0;
+  int rows = 0;     ///< of runs and of studies
   int doubled = 0;  ///< rows that several files had, kept once
 };
 
 /// One new file, written to a temporary and renamed, from files of the same suite. Throws
-/// BadInput where they differ, or where they answer the same run differently.
+/// BadInput where they differ, or where they answer the same run differently. Of studies,
+/// whose figures are times, the first that ran is kept.
 Merged merge_results(const std::vector<std::filesystem::path>& files,
                      const std::filesystem::path& output);
 

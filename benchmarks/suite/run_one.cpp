@@ -6,8 +6,8 @@
 #include <ctime>
 #include <exception>
 #include <new>
-#include <unistd.h>
 
+#include "io/document.h"
 #include "planner/replay.h"
 #include "primitives/uncertainty.h"
 
@@ -25,12 +25,6 @@ double wall_time() {
   return std::chrono::duration<double>(
              std::chrono::steady_clock::now().time_since_epoch())
       .count();
-}
-
-std::string host_name() {
-  char host[256] = "unknown";
-  if (::gethostname(host, sizeof host - 1) != 0) return "unknown";
-  return host;
 }
 
 std::string digest_of_pushes(const Plan& plan) {
@@ -51,7 +45,7 @@ std::string digest_of_pushes(const Plan& plan) {
     }
     add(planned.push_force);
   }
-  return digest_of(text);
+  return internal::digest_of(text);
 }
 
 void add_plan(const Plan& plan, const Model& model, RunRecord& record) {
@@ -123,7 +117,7 @@ void run(const Suite& suite, const ProblemList& problems, const PlannerTable& pl
   const Scene scene = problems.scene(key.family, key.problem);
   const Model model = prepare(scene);
   record.setup_time = cpu_time() - begin;
-  record.scene = digest_of(scene_to_yaml(scene));
+  record.scene = internal::digest_of(scene_to_yaml(scene));
   record.constructed = problems.is_constructed(key.family);
 
   record.status = RunStatus::kFault;

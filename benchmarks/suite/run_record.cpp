@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <sstream>
 #include <type_traits>
+#include <unistd.h>
 
 namespace prehensile::suite {
 namespace {
@@ -45,6 +46,12 @@ bool parse(const std::string& text, T& into) {
 }
 
 }  // namespace
+
+std::string host_name() {
+  char host[256] = "unknown";
+  if (::gethostname(host, sizeof host - 1) != 0) return "unknown";
+  return host;
+}
 
 std::string to_text(const RunRecord& record) {
   std::string out = std::to_string(static_cast<int>(record.status)) + '\n';

@@ -123,6 +123,9 @@ inline bool is_measurement(std::string_view column) {
   return column.ends_with("time") || column == "memory" || column == "host";
 }
 
+/// Of this machine, for `host`.
+std::string host_name();
+
 /// A record as text, for a pipe; reading back gives the same record.
 std::string to_text(const RunRecord& record);
 

@@ -3,7 +3,6 @@
 #include <chrono>
 #include <csignal>
 #include <stdexcept>
-#include <unistd.h>
 
 #include "benchmarks/suite/worker_pool.h"
 
@@ -14,12 +13,6 @@ ProcessLimits process_limits(const Limits& limits) {
   return {.cpu_time = limits.cpu_time,
           .wall_time = limits.wall_time,
           .memory_MB = limits.memory_MB};
-}
-
-std::string host_name() {
-  char host[256] = "unknown";
-  if (::gethostname(host, sizeof host - 1) != 0) return "unknown";
-  return host;
 }
 
 /// The row of a run that did not report.
@@ -86,26 +79,62 @@ bool is_stopped(const RunOptions& options) {
   return options.stop && options.stop->load();
 }
 
+/// Calls f(key) for all runs in their order.
+template <typename F>
+void for_each_run(const Suite& suite, const ProblemList& problems, const F& f) {
+  for (int family = 0; family < problems.families(); ++family) {
+    for (int problem = 0; problem < problems.count(family); ++problem) {
+      for (std::size_t planner = 0; planner < suite.planners.size(); ++planner) {
+        for (int seed = 1; seed <= suite.planners[planner].seeds; ++seed) {
+          for (int repetition = 1; repetition <= suite.repetitions; ++repetition) {
+            f(RunKey{family, problem, static_cast<int>(planner), seed, repetition});
+          }
+        }
+      }
+    }
+  }
+}
+
+bool is_of_shard(int number, const RunOptions& options) {
+  return number % options.shards == options.shard - 1;
+}
+
+/// What the file lacks.
+template <typename Key>
+std::vector<Key> missing(std::vector<Key> wanted, const std::set<Key>& done) {
+  std::erase_if(wanted, [&done](const Key& key) { return done.contains(key); });
+  return wanted;
+}
+
 }  // namespace
 
 std::vector<RunKey> runs_of(const Suite& suite, const ProblemList& problems,
                             const RunOptions& options) {
   std::vector<RunKey> keys;
   int number = 0;
-  for (int family = 0; family < problems.families(); ++family) {
-    for (int problem = 0; problem < problems.count(family); ++problem) {
-      for (std::size_t planner = 0; planner < suite.planners.size(); ++planner) {
-        for (int seed = 1; seed <= suite.planners[planner].seeds; ++seed) {
-          for (int repetition = 1; repetition <= suite.repetitions; ++repetition) {
-            if (number++ % options.shards != options.shard - 1) continue;
-            keys.push_back(
-                {family, problem, static_cast<int>(planner), seed, repetition});
-          }
-        }
-      }
-    }
-  }
+  for_each_run(suite, problems, [&](const RunKey& key) {
+    if (is_of_shard(number++, options)) keys.push_back(key);
+  });
   return keys;
+}
+
+std::vector<int> studies_of(const Suite& suite, const ProblemList& problems,
+                            const RunOptions& options) {
+  std::vector<int> studies;
+  int number = 0;
+  for_each_run(suite, problems, [&number](const RunKey&) { ++number; });
+  for (std::size_t i = 0; i < suite.studies.size(); ++i) {
+    if (is_of_shard(number++, options)) studies.push_back(static_cast<int>(i));
+  }
+  return studies;
+}
+
+StudyRecord study_apart(const Suite& suite, StudyRunner& runner, int study) {
+  WorkerPool pool(1, process_limits(suite.limits));
+  if (auto refused = runner.start(study, 0, pool)) return *std::move(refused);
+  for (;;) {
+    if (const auto ending = pool.wait(3600.0)) return runner.record_of(study, *ending);
+  }
 }
 
 RunRecord run_apart(const Suite& suite, const ProblemList& problems,
@@ -122,31 +151,53 @@ RunRecord run_apart(const Suite& suite, const ProblemList& problems,
 RunCount run_suite(const Suite& suite, const ProblemList& problems,
                    const PlannerTable& planners, const RunOptions& options,
                    ResultsWriter& results) {
-  const std::vector<RunKey> keys = runs_of(suite, problems, options);
-  int done = 0;
-  for (const RunKey& key : keys) done += results.done().contains(key) ? 1 : 0;
-  const Pace pace(done, static_cast<int>(keys.size()));
+  const std::vector<RunKey> all_runs = runs_of(suite, problems, options);
+  const std::vector<int> all_studies =
+      options.studies ? studies_of(suite, problems, options) : std::vector<int>();
+  // Tickets count the missing runs, then the missing studies.
+  const std::vector<RunKey> keys = missing(all_runs, results.done());
+  const std::vector<int> studies = missing(all_studies, results.studies_done());
+  const std::size_t wanted = all_runs.size() + all_studies.size();
+  std::size_t done = wanted - keys.size() - studies.size();
+  const Pace pace(static_cast<int>(done), static_cast<int>(wanted));
   RunCount count;
   std::size_t next = 0;
   int running = 0;
+  const auto add = [&](const auto& row) {
+    results.add(row);
+    ++count.done;
+    if (options.progress) options.progress(pace.at(static_cast<int>(++done), running));
+  };
   WorkerPool pool(options.jobs, process_limits(suite.limits));
+  const auto start = [&](std::size_t i) {
+    const int ticket = static_cast<int>(i);
+    ++running;
+    if (i < keys.size()) {
+      pool.start(ticket,
+                 [&] { return to_text(run_one(suite, problems, planners, keys[i])); });
+    } else if (const auto refused =
+                   options.studies->start(studies[i - keys.size()], ticket, pool)) {
+      --running;
+      add(*refused);
+    }
+  };
+  const auto finish = [&](const Ending& ending) {
+    const auto i = static_cast<std::size_t>(ending.ticket);
+    --running;
+    if (i < keys.size()) {
+      const bool is_constructed = problems.is_constructed(keys[i].family);
+      add(ResultRow{keys[i], record_of(ending, is_constructed)});
+    } else {
+      add(options.studies->record_of(studies[i - keys.size()], ending));
+    }
+  };
   while (!is_stopped(options)) {
-    while (next < keys.size() && results.done().contains(keys[next])) ++next;
-    if (next < keys.size() && !pool.is_full()) {
-      const RunKey& key = keys[next];
-      pool.start(static_cast<int>(next++),
-                 [&] { return to_text(run_one(suite, problems, planners, key)); });
-      ++running;
+    if (next < keys.size() + studies.size() && !pool.is_full()) {
+      start(next++);
       continue;
     }
     if (pool.is_idle()) break;
-    const auto ending = pool.wait(1.0);
-    if (!ending) continue;
-    --running;
-    const RunKey& key = keys[static_cast<std::size_t>(ending->ticket)];
-    results.add({key, record_of(*ending, problems.is_constructed(key.family))});
-    ++count.done;
-    if (options.progress) options.progress(pace.at(++done, running));
+    if (const auto ending = pool.wait(1.0)) finish(*ending);
   }
   count.stopped = is_stopped(options);
   return count;

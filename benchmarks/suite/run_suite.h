@@ -1,4 +1,5 @@
-/// Runs a suite: every planner on every problem, one process per run, one row per run.
+/// Runs a suite: every planner on every problem, and every study, each in a process of
+/// its own, each a row.
 #pragma once
 
 #include <atomic>
@@ -7,11 +8,12 @@
 
 #include "benchmarks/suite/results.h"
 #include "benchmarks/suite/run_one.h"
+#include "benchmarks/suite/study_runner.h"
 
 namespace prehensile::suite {
 
 struct RunProgress {
-  int done = 0;  ///< rows in the file, those of earlier starts included
+  int done = 0;  ///< rows in the file, studies and those of earlier starts included
   int wanted = 0;
   int running = 0;
   double runs_per_second = 0.0;  ///< since this start
@@ -19,8 +21,9 @@ struct RunProgress {
 };
 
 struct RunOptions {
-  int jobs = 1;               ///< processes at a time, >= 1
-  int shard = 1, shards = 1;  ///< only every shards-th run, from the shard-th
+  int jobs = 1;                    ///< processes at a time, >= 1
+  int shard = 1, shards = 1;       ///< only every shards-th run, from the shard-th
+  StudyRunner* studies = nullptr;  ///< null: the suite's studies are left out
   const std::atomic<bool>* stop =
       nullptr;  ///< set: no new runs, those under way are lost
   std::function<void(const RunProgress&)> progress;  ///< told after every run
@@ -30,6 +33,14 @@ struct RunOptions {
 /// suite has all planners; of them, with several shards, the shard's.
 std::vector<RunKey> runs_of(const Suite& suite, const ProblemList& problems,
                             const RunOptions& options);
+
+/// The studies of a suite, numbered from 0; with several shards those that are the
+/// shard's where they stand behind all runs.
+std::vector<int> studies_of(const Suite& suite, const ProblemList& problems,
+                            const RunOptions& options);
+
+/// One study in a process of its own.
+StudyRecord study_apart(const Suite& suite, StudyRunner& runner, int study);
 
 /// One run in a process of its own.
 RunRecord run_apart(const Suite& suite, const ProblemList& problems,

@@ -1,12 +1,15 @@
-/// A benchmark suite: which problems, which planners, how often, within which limits.
+/// A benchmark suite: which problems, which planners, how often, within which limits, and
+/// which studies.
 /// Plain values; read from a file by suite_file.h.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "problems/confined_regrasps.h"
 #include "problems/published_regrasps.h"
 #include "problems/random_fixtures.h"
 
@@ -23,6 +26,10 @@ struct AmongWalls {
   bool square = true;
   RegraspRange range = RegraspRange::kWide;
   bool gravity = true;
+  std::optional<double> theta_window;  ///< [rad] limits on theta this far beyond start
+                                       ///< and goal
+  int posts =
+      0;  ///< > 0: a hand with a body, walls, and so many posts that are in its way
   int count = 100;
   int seed = 1;
 };
@@ -93,7 +100,34 @@ struct PlannerEntry {
   const std::string& label() const { return name.empty() ? planner : name; }
 };
 
-/// What ends a run from outside.
+/// The programs that a study may be, `bench_` ones and tests that measure
+/// (study_programs.h).
+enum class StudyProgram {
+  kInstant,
+  kSpatial,
+  kExtremes,
+  kPrecision,
+  kPush,
+  kIntegrators,
+  kPlanner,
+  kBaselines,
+  kTruth,
+  kCollection,
+  kMechanicsTests,
+  kPrimitivesTests,
+  kPlannerTests
+};
+
+/// A measurement that is no planner on a problem: error against run time of solvers and
+/// integrators, truth on real data. One process, one row.
+struct Study {
+  std::string name;  ///< one word
+  StudyProgram program = StudyProgram::kInstant;
+  std::vector<std::string> arguments;
+  std::string data;  ///< folder in the suite's, for programs that read data
+};
+
+/// What ends a run or a study from outside.
 struct Limits {
   double cpu_time = 60.0;     ///< [s] of the process of the run
   double wall_time = 600.0;   ///< [s]
@@ -104,6 +138,7 @@ struct Suite {
   std::string name = "suite";
   std::vector<Family> families;
   std::vector<PlannerEntry> planners;
+  std::vector<Study> studies;
   Limits limits;
   int repetitions = 1;
   int quick = 3;  ///< problems of each family with --quick

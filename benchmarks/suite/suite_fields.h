@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "benchmarks/suite/suite.h"
+#include "benchmarks/suite/study_programs.h"
 #include "io/fields.h"
 
 namespace prehensile::suite {
@@ -77,6 +77,11 @@ void visit_among_walls(Fields& f, AmongWalls& source) {
   f.word("range", source.range, kRangeWords, kOptional,
          "published: of the comparison; wide: anywhere on the object, at any angle.");
   f.word("gravity", source.gravity, kGravityWords, kOptional, "Along -y of O, or none.");
+  f.angle("theta_window", source.theta_window, {0.0, 50.0, "rad"},
+          "Limits on theta this far beyond those of start and goal. Absent: none.");
+  f.whole("posts", source.posts, 0, 50, kOptional,
+          "Above 0: fingers and a palm, plates behind the walls, and so many posts "
+          "around that neither may hit.");
   visit_draws(f, source.count, source.seed, "Problems.");
 }
 
@@ -186,6 +191,19 @@ void visit_planner(Fields& f, PlannerEntry& entry) {
 }
 
 template <typename Fields>
+void visit_study(Fields& f, Study& study) {
+  f.text("name", study.name, kRequired, "One word.");
+  f.word("program", study.program, kStudyProgramWords, kRequired,
+         "A benchmark program, or tests that measure, of the same build.");
+  f.names("arguments", study.arguments, Length{0, 40},
+          "For the program: letters, digits and _ - . , : = * alone; what names files is "
+          "set by the command.");
+  f.text("data", study.data, kOptional,
+         "Folder of real data in the suite's folder (or --data), for truth and "
+         "collection.");
+}
+
+template <typename Fields>
 void visit_limits(Fields& f, Limits& limits) {
   f.number("cpu_time", limits.cpu_time, {0.01, 1e6, "s"}, kOptional,
            "A run is killed after this processor time.");
@@ -199,13 +217,17 @@ template <typename Fields>
 void visit_suite(Fields& fields, Suite& suite) {
   fields.version(kSuiteVersion);
   fields.text("name", suite.name, kRequired, "One word.");
-  fields.list("families", suite.families, Length{1, 200}, kRequired,
+  fields.list("families", suite.families, Length{1, 200}, kOptional,
               "Families of problems.",
               [](auto& f, Family& family) { visit_family(f, family); });
-  fields.list("planners", suite.planners, Length{1, 50}, kRequired,
+  fields.list("planners", suite.planners, Length{1, 50}, kOptional,
               "Each runs on every problem.",
               [](auto& f, PlannerEntry& entry) { visit_planner(f, entry); });
-  fields.group("limits", suite.limits, kOptional, "What ends a run from outside.",
+  fields.list("studies", suite.studies, Length{1, 200}, kOptional,
+              "Programs that measure something else, each once.",
+              [](auto& f, Study& study) { visit_study(f, study); });
+  fields.group("limits", suite.limits, kOptional,
+               "What ends a run or a study from outside.",
                [](auto& f, Limits& limits) { visit_limits(f, limits); });
   fields.whole("repetitions", suite.repetitions, 1, 1000, kOptional,
                "Of every run, for its time.");

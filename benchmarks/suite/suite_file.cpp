@@ -1,7 +1,6 @@
 #include "benchmarks/suite/suite_file.h"
 
 #include <algorithm>
-#include <cinttypes>
 #include <cmath>
 #include <cstdio>
 #include <set>
@@ -19,6 +18,20 @@ using internal::Value;
 
 constexpr auto kVisit = [](auto& fields, Suite& suite) { visit_suite(fields, suite); };
 
+bool has_only(const std::string& text, std::size_t longest, std::string_view marks) {
+  return !text.empty() && text.size() <= longest &&
+         std::all_of(text.begin(), text.end(), [marks](char c) {
+           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                  (c >= '0' && c <= '9') || marks.find(c) != std::string_view::npos;
+         });
+}
+
+/// Relative, and not out of its folder by its words.
+bool stays_inside(const std::filesystem::path& file) {
+  return !file.empty() && file.is_relative() &&
+         std::none_of(file.begin(), file.end(), [](const auto& p) { return p == ".."; });
+}
+
 /// Faults of values, each at its field's line.
 class Judge {
  public:
@@ -34,13 +47,8 @@ class Judge {
   }
 
   void word(const std::string& word, const std::string& field) {
-    const bool sound = !word.empty() && word.size() <= 60 &&
-                       std::all_of(word.begin(), word.end(), [](char c) {
-                         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                                (c >= '0' && c <= '9') || c == '_' || c == '-' ||
-                                c == '.';
-                       });
-    require(sound, field, "one word of letters, digits, _ - and ., at most 60 of them");
+    require(is_word(word), field,
+            "one word of letters, digits, _ - and ., at most 60 of them");
   }
 
   void unique(std::set<std::string>& names, const std::string& name,
@@ -75,11 +83,7 @@ void judge_files(const std::vector<std::string>& files, const std::string& path,
                  Judge& judge) {
   judge.require(!files.empty(), path, "at least one file");
   for (std::size_t i = 0; i < files.size(); ++i) {
-    const std::filesystem::path file = files[i];
-    const bool inside =
-        !files[i].empty() && file.is_relative() &&
-        std::none_of(file.begin(), file.end(), [](const auto& p) { return p == ".."; });
-    judge.require(inside, path + '.' + std::to_string(i),
+    judge.require(stays_inside(files[i]), path + '.' + std::to_string(i),
                   "a path in the suite's folder or below");
   }
 }
@@ -100,6 +104,23 @@ std::string listed(const std::vector<std::string>& names) {
   return out;
 }
 
+void judge_study(const Study& study, const std::string& path, Judge& judge) {
+  judge.word(study.name, path + ".name");
+  for (std::size_t i = 0; i < study.arguments.size(); ++i) {
+    const std::string& argument = study.arguments[i];
+    const std::string field = path + ".arguments." + std::to_string(i);
+    judge.require(has_only(argument, 100, "_-.,:=*"), field,
+                  "letters, digits and _ - . , : = * alone, at most 100 of them");
+    judge.require(!is_set_by_the_command(argument), field,
+                  "no option that the command sets itself");
+  }
+  const bool wants_data = program_of(study).takes_data;
+  judge.require(wants_data || study.data.empty(), path + ".data",
+                "none: this program reads no data");
+  judge.require(!wants_data || stays_inside(study.data), path + ".data",
+                "a folder in the suite's folder or below");
+}
+
 void judge_suite(const Suite& suite, const std::vector<std::string>& planners,
                  Judge& judge) {
   judge.word(suite.name, "name");
@@ -110,6 +131,18 @@ void judge_suite(const Suite& suite, const std::vector<std::string>& planners,
     judge.unique(names, suite.families[i].name, path + ".name");
     judge_source(suite.families[i], path, judge);
   }
+  judge.require(!suite.families.empty() || !suite.studies.empty(), "families",
+                "families and planners, or studies");
+  judge.require(suite.families.empty() || !suite.planners.empty(), "planners",
+                "planners for the families");
+  judge.require(suite.planners.empty() || !suite.families.empty(), "families",
+                "families for the planners");
+  names.clear();
+  for (std::size_t i = 0; i < suite.studies.size(); ++i) {
+    const std::string path = "studies." + std::to_string(i);
+    judge_study(suite.studies[i], path, judge);
+    judge.unique(names, suite.studies[i].name, path + ".name");
+  }
   names.clear();
   for (std::size_t i = 0; i < suite.planners.size(); ++i) {
     const PlannerEntry& entry = suite.planners[i];
@@ -119,12 +152,16 @@ void judge_suite(const Suite& suite, const std::vector<std::string>& planners,
         path + ".planner", "one of " + listed(planners));
     judge.require(entry.budget == std::floor(entry.budget), path + ".budget",
                   "a whole number");
+    judge.require(!entry.name.empty() || is_word(entry.planner), path + ".name",
+                  "a name, because " + entry.planner + " is not one word");
     judge.word(entry.label(), path + ".name");
     judge.unique(names, entry.label(), path + ".name");
   }
 }
 
 }  // namespace
+
+bool is_word(const std::string& text) { return has_only(text, 60, "_-."); }
 
 SuiteFile parse_suite(const std::string& text, const std::string& label,
                       const std::vector<std::string>& planners,
@@ -149,25 +186,11 @@ SuiteFile read_suite(const std::filesystem::path& file,
 
 std::string suite_schema() {
   Suite defaults;
-  nlohmann::ordered_json schema = {
-      {"$schema", "http://json-schema.org/draft-07/schema#"},
-      {"title", "Benchmark suite of prehensile"},
-      {"description",
-       "Which problems, which planners, how often, within which limits. SI units unless "
-       "the key says otherwise."}};
-  schema.update(internal::FieldSchema::describe(defaults, kVisit));
-  return schema.dump(2) + '\n';
-}
-
-std::string digest_of(const std::string& text) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : text) {
-    hash ^= static_cast<unsigned char>(c);
-    hash *= 0x100000001b3u;
-  }
-  char hex[17];
-  std::snprintf(hex, sizeof hex, "%016" PRIx64, hash);
-  return hex;
+  return internal::FieldSchema::document(
+      "Benchmark suite of prehensile",
+      "Which problems, which planners, how often, within which limits. SI units unless "
+      "the key says otherwise.",
+      defaults, kVisit);
 }
 
 }  // namespace prehensile::suite

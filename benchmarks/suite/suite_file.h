@@ -17,6 +17,9 @@ struct SuiteFile {
   std::filesystem::path folder;  ///< where the files that it names lie
 };
 
+/// One word of letters, digits, _ - and ., at most 60 of them: what names are.
+bool is_word(const std::string& text);
+
 /// Reads a suite. `planners` are the names that entries may ask for. `folder`, unless
 /// empty, stands for the suite's own folder as the place of the files that it names.
 /// Throws BadInput.
@@ -31,8 +34,5 @@ SuiteFile parse_suite(const std::string& text, const std::string& label,
 
 /// The JSON Schema of suite files, generated from the same field list as the reader.
 std::string suite_schema();
-
-/// FNV-1a, 64 bits (Fowler, Noll, Vo), in hex.
-std::string digest_of(const std::string& text);
 
 }  // namespace prehensile::suite

@@ -23,6 +23,7 @@ namespace prehensile::suite {
 namespace {
 
 constexpr int kExitOutOfMemory = 71;  // of the child; no planner ends a process itself
+constexpr std::size_t kMostText = 8'000'000;  // of one process
 
 double now() {
   return std::chrono::duration<double>(
@@ -105,6 +106,27 @@ bool write_all(int pipe, const std::string& text) {
   ::_exit(code);  // without destructors: files of the parent are the parent's
 }
 
+/// Becomes the program, whose outputs go to the pipe.
+[[noreturn]] void run_and_exit(int pipe, const ProgramCall& call) {
+  std::string program = call.program.string();
+  std::vector<std::string> words = call.arguments;
+  std::vector<char*> pointers = {program.data()};
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  ::setpgid(0, 0);  // it may start others: they end with it
+  const bool ready = ::dup2(pipe, STDOUT_FILENO) >= 0 && ::dup2(pipe, STDERR_FILENO) >= 0;
+  if (ready && ::chdir(call.folder.c_str()) == 0)
+    ::execv(program.c_str(), pointers.data());
+  ::_exit(kExitNotStarted);
+}
+
+/// Whether a child has not ended yet; its end stays there to be asked for.
+bool is_alive(pid_t process) {
+  siginfo_t info{};
+  const auto id = static_cast<id_t>(process);
+  return ::waitid(P_PID, id, &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == 0;
+}
+
 [[noreturn]] void fail(const char* what) {
   throw std::runtime_error(std::string(what) + ": " + std::strerror(errno));
 }
@@ -116,13 +138,14 @@ WorkerPool::WorkerPool(int jobs, const ProcessLimits& limits)
 
 WorkerPool::~WorkerPool() {
   for (const Worker& worker : workers_) {
-    ::kill(worker.process, SIGKILL);
+    kill(worker);
     ::waitpid(worker.process, nullptr, 0);
     ::close(worker.pipe);
   }
 }
 
-void WorkerPool::start(int ticket, const std::function<std::string()>& work) {
+void WorkerPool::add(int ticket, bool is_program,
+                     const std::function<void(int pipe)>& child) {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) fail("cannot make a pipe");
   const pid_t parent = ::getpid();
@@ -137,22 +160,37 @@ void WorkerPool::start(int ticket, const std::function<std::string()>& work) {
     for (const Worker& other : workers_) ::close(other.pipe);
     ::close(ends[0]);
     become_worker(parent, limits_);
-    work_and_exit(ends[1], work);
+    child(ends[1]);
+    ::_exit(1);
   }
+  if (is_program) ::setpgid(process, process);  // whichever of the two is first
   ::close(ends[1]);
   ::fcntl(ends[0], F_SETFL, O_NONBLOCK);
   workers_.push_back({.ticket = ticket,
                       .process = process,
                       .pipe = ends[0],
-                      .deadline = now() + limits_.wall_time});
+                      .begin = now(),
+                      .is_program = is_program});
+}
+
+void WorkerPool::start(int ticket, const std::function<std::string()>& work) {
+  add(ticket, false, [&work](int pipe) { work_and_exit(pipe, work); });
+}
+
+void WorkerPool::start(int ticket, const ProgramCall& call) {
+  add(ticket, true, [&call](int pipe) { run_and_exit(pipe, call); });
+}
+
+void WorkerPool::kill(const Worker& worker) {
+  ::kill(worker.is_program ? -worker.process : worker.process, SIGKILL);
 }
 
 void WorkerPool::kill_late_ones() {
   const double time = now();
   for (Worker& worker : workers_) {
-    if (worker.is_late || time < worker.deadline) continue;
+    if (worker.is_late || time < deadline(worker)) continue;
     worker.is_late = true;
-    ::kill(worker.process, SIGKILL);
+    kill(worker);
   }
 }
 
@@ -162,6 +200,12 @@ Ending WorkerPool::reap(std::size_t index) {
   ::close(worker.pipe);
   int status = 0;
   rusage usage{};
+  // A program may close its outputs and live on, though not beyond its time.
+  while (worker.is_program && !worker.is_late && is_alive(worker.process)) {
+    worker.is_late = now() >= deadline(worker);
+    if (worker.is_late) kill(worker);
+    ::usleep(500);
+  }
   while (::wait4(worker.process, &status, 0, &usage) < 0 && errno == EINTR) {
   }
   const auto seconds = [](const timeval& t) {
@@ -169,14 +213,17 @@ Ending WorkerPool::reap(std::size_t index) {
   };
   Ending ending{.ticket = worker.ticket,
                 .cpu_time = seconds(usage.ru_utime) + seconds(usage.ru_stime),
+                .wall_time = now() - worker.begin,
                 .memory_MB = 1e-3 * 1.024 * static_cast<double>(usage.ru_maxrss)};
   if (WIFSIGNALED(status)) ending.signal = WTERMSIG(status);
-  const bool is_done = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  if (WIFEXITED(status)) ending.exit_code = WEXITSTATUS(status);
+  const bool is_done = ending.exit_code == 0;
+  if (is_done || worker.is_program) ending.text = std::move(worker.text);
   if (is_done) {
-    ending.text = std::move(worker.text);
+    ending.kind = Ending::Kind::kDone;
   } else if (worker.is_late || ending.signal == SIGPROF) {
     ending.kind = Ending::Kind::kTimeout;
-  } else if (WIFEXITED(status) && WEXITSTATUS(status) == kExitOutOfMemory) {
+  } else if (ending.exit_code == kExitOutOfMemory && !worker.is_program) {
     ending.kind = Ending::Kind::kOutOfMemory;
   } else {
     ending.kind = Ending::Kind::kCrashed;
@@ -192,7 +239,7 @@ std::optional<Ending> WorkerPool::wait(double seconds) {
     polled.reserve(workers_.size());
     for (const Worker& worker : workers_) {
       polled.push_back({worker.pipe, POLLIN, 0});
-      if (!worker.is_late) next = std::min(next, worker.deadline);
+      if (!worker.is_late) next = std::min(next, deadline(worker));
     }
     const double left = std::max(0.0, next - now());
     const int ready = ::poll(polled.data(), polled.size(),
@@ -206,7 +253,9 @@ std::optional<Ending> WorkerPool::wait(double seconds) {
       char buffer[16384];
       const ssize_t got = ::read(workers_[i].pipe, buffer, sizeof buffer);
       if (got > 0) {
-        workers_[i].text.append(buffer, static_cast<std::size_t>(got));
+        std::string& text = workers_[i].text;
+        const std::size_t room = kMostText - std::min(kMostText, text.size());
+        text.append(buffer, std::min(room, static_cast<std::size_t>(got)));
       } else if (got == 0 || (errno != EAGAIN && errno != EINTR)) {
         return reap(i);
       }

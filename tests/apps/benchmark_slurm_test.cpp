@@ -25,6 +25,15 @@ int shell(const std::string& command) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+/// What a command prints, wherever.
+std::string said(const std::string& command) {
+  std::string text;
+  std::FILE* const pipe = ::popen((command + " 2>&1").c_str(), "r");
+  for (int c = 0; pipe && (c = std::fgetc(pipe)) != EOF;) text += static_cast<char>(c);
+  if (!pipe || ::pclose(pipe) != 0) text += "\n(failed: " + command + ")";
+  return text;
+}
+
 /// Two nodes, from beginning to end.
 class Cluster {
  public:
@@ -40,10 +49,19 @@ class Cluster {
   Cluster& operator=(const Cluster&) = delete;
   int outcome() const { return outcome_; }
 
+  /// Kills a node with all that it runs; whether it ran anything.
+  bool kill_node(const std::string& node) const { return run("kill_node", node) == 0; }
+
+  /// What went wrong, and the last lines of every daemon.
+  std::string story() const {
+    return said("tail -n 20 " + log() + ' ' + folder_.string() + "/log/*.log");
+  }
+
  private:
-  int run(const std::string& what) const {
+  std::string log() const { return folder_.string() + ".log"; }
+  int run(const std::string& what, const std::string& node = "") const {
     return shell("bash " PREHENSILE_SOURCE_DIR "/tests/apps/slurm_cluster.sh " + what +
-                 ' ' + folder_.string() + " > /dev/null 2>&1");
+                 ' ' + folder_.string() + ' ' + node + " >> " + log() + " 2>&1");
   }
   fs::path folder_;
   int outcome_ = -1;
@@ -51,7 +69,7 @@ class Cluster {
 
 /// Waits for a file, freeing a requeued task from the two minutes that Slurm holds it.
 bool wait_for(const fs::path& file, const std::string& task) {
-  for (int i = 0; i < 600; ++i) {
+  for (int i = 0; i < 1500; ++i) {
     if (fs::exists(file)) return true;
     if (!task.empty()) {
       shell("scontrol update JobId=" + task + " StartTime=now > /dev/null 2>&1");
@@ -59,6 +77,45 @@ bool wait_for(const fs::path& file, const std::string& task) {
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
   }
   return false;
+}
+
+/// Submits a suite in some tasks to job/ in the folder; the number of the array.
+std::string submit(const Folder& folder, const std::string& suite, int tasks) {
+  write_text(folder.path("suite.yaml"), suite);
+  const Outcome out =
+      run_program("benchmark slurm " + folder.path("suite.yaml").string() + " --tasks " +
+                  std::to_string(tasks) + " --submit -o " + folder.path("job").string());
+  EXPECT_EQ(out.exit_code, 0) << out.err;
+  const std::size_t at = out.out.find("submitted array ");
+  if (at == std::string::npos) return out.out;
+  return out.out.substr(at + 16, out.out.find(' ', at + 16) - at - 16);
+}
+
+/// The rows of a file that a program is writing; 0 where it cannot be read just now.
+int rows_under_way(const Folder& folder, const std::string& file) {
+  const fs::path copy = folder.path("copy");
+  std::error_code ignored;
+  try {
+    for (const char* ending : {"", "-wal"}) {
+      fs::copy_file(file + ending, copy.string() + ending,
+                    fs::copy_options::overwrite_existing, ignored);
+    }
+    return static_cast<int>(suite::read_results(copy).rows.size());
+  } catch (const std::exception&) {
+    return 0;
+  }
+}
+
+/// The number of the task of an array that a node runs, once it has added some rows.
+std::string task_with_rows(const Folder& folder, const std::string& node, int rows) {
+  for (int i = 0; i < 1500; ++i) {
+    const std::string task = said("squeue -h -t R -w " + node + " -o %K");
+    const std::string number = task.substr(0, task.find('\n'));
+    const fs::path part = folder.path("job/shard_" + number + ".sqlite.part");
+    if (!number.empty() && rows_under_way(folder, part.string()) >= rows) return number;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  return {};
 }
 
 /// Rows without what depends on clock, load or machine.
@@ -91,21 +148,17 @@ TEST(BenchmarkSlurm, FullTwoNodesGiveWhatOneMachineGives) {
   if (cluster.outcome() == 77) {
     GTEST_SKIP() << "Slurm is not installed (Debian: slurm-wlm munge)";
   }
-  ASSERT_EQ(cluster.outcome(), 0) << "the nodes did not come up";
+  ASSERT_EQ(cluster.outcome(), 0) << cluster.story();
   const std::string suite_file = folder.path("suite.yaml").string();
-  write_text(suite_file, kSuite);
-  const Outcome out =
-      run_program("benchmark slurm " + suite_file + " --tasks 4 --submit -o " +
-                  folder.path("job").string());
-  ASSERT_EQ(out.exit_code, 0) << out.err;
-  const std::size_t at = out.out.find("submitted array ");
-  ASSERT_NE(at, std::string::npos) << out.out;
-  const std::string array = out.out.substr(at + 16, out.out.find(' ', at + 16) - at - 16);
+  const std::string array = submit(folder, kSuite, 4);
   // A task that is taken back while it runs goes on later where it was.
-  ASSERT_TRUE(wait_for(folder.path("job/log/1.txt"), ""));
-  shell("scontrol requeue " + array + "_1 > /dev/null 2>&1");
-  ASSERT_TRUE(wait_for(folder.path("job/shard_1.sqlite"), array + "_1"));
-  ASSERT_TRUE(wait_for(folder.path("job/results.sqlite"), array + "_1"));
+  ASSERT_TRUE(wait_for(folder.path("job/log/1.txt"), "")) << cluster.story();
+  ASSERT_EQ(said("scontrol requeue " + array + "_1"), "");
+  ASSERT_TRUE(wait_for(folder.path("job/shard_1.sqlite"), array + "_1"))
+      << cluster.story();
+  const std::string task = said("scontrol show job " + array + "_1");
+  EXPECT_NE(task.find("Restarts=1"), std::string::npos) << task;
+  ASSERT_TRUE(wait_for(folder.path("job/results.sqlite"), "")) << cluster.story();
 
   const std::string alone = folder.path("alone.sqlite").string();
   ASSERT_EQ(run_program("benchmark " + suite_file + " -o " + alone).exit_code, 0);
@@ -118,6 +171,49 @@ TEST(BenchmarkSlurm, FullTwoNodesGiveWhatOneMachineGives) {
                   "/dev/null"),
             0);
   EXPECT_EQ(read_text(folder.path("job/results.sqlite")), before);
+}
+
+TEST(BenchmarkSlurm, FullADeadNodeLosesNothing) {
+  const Folder folder;
+  const Cluster cluster(folder.path("slurm"));
+  if (cluster.outcome() == 77) {
+    GTEST_SKIP() << "Slurm is not installed (Debian: slurm-wlm munge)";
+  }
+  ASSERT_EQ(cluster.outcome(), 0) << cluster.story();
+  // Runs of some tenths of a second, so that a task can be met half way.
+  const std::string suite =
+      "version: 1\nname: slow\nfamilies:\n"
+      "  - {name: wide, among_walls: {object: tee, count: 40}}\n"
+      "planners:\n  - {planner: push, budget: 1e6, until: budget}\n";
+  const std::string array = submit(folder, suite, 2);
+  const std::string number = task_with_rows(folder, "b", 3);
+  ASSERT_NE(number, "") << cluster.story();
+  ASSERT_TRUE(cluster.kill_node("b")) << cluster.story();
+
+  // Slurm finds that the node is gone, and gives its task to the other one.
+  const std::string task = array + '_' + number;
+  const fs::path shard = folder.path("job/shard_" + number + ".sqlite");
+  ASSERT_TRUE(wait_for(shard, task))
+      << said("scontrol show job " + task) << cluster.story();
+  EXPECT_EQ(said("sinfo -h -n b -o %t").substr(0, 4), "down");
+  const std::string shown = said("scontrol show job " + task);
+  EXPECT_NE(shown.find("Restarts=1"), std::string::npos) << shown;
+  EXPECT_NE(shown.find("BatchHost=a"), std::string::npos) << shown;
+  // It went on where it had been.
+  const std::string log = read_text(folder.path("job/log/" + number + ".txt"));
+  const std::size_t at = log.rfind(" runs in ");
+  ASSERT_NE(at, std::string::npos) << log;
+  const int added = std::stoi(log.substr(log.rfind('\n', at) + 1));
+  EXPECT_LE(added, 20 - 3) << log;
+
+  ASSERT_TRUE(wait_for(folder.path("job/results.sqlite"), "")) << cluster.story();
+  const std::string alone = folder.path("alone.sqlite").string();
+  ASSERT_EQ(
+      run_program("benchmark " + folder.path("suite.yaml").string() + " -o " + alone)
+          .exit_code,
+      0);
+  EXPECT_EQ(suite::read_results(folder.path("job/results.sqlite")).rows.size(), 40u);
+  EXPECT_EQ(facts(folder.path("job/results.sqlite")), facts(alone));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# A Slurm of two nodes on this machine, without root's services: `start FOLDER`, `stop FOLDER`.
+# A Slurm of two nodes on this machine, without root's services: `start FOLDER`, `stop FOLDER`,
+# `kill_node FOLDER NODE`, with NODE one of a and b.
 # Exit code 77: Slurm is not installed (Debian: slurm-wlm munge).
 set -euo pipefail
 PATH="$PATH:/usr/sbin:/sbin"
@@ -9,8 +10,41 @@ export SLURM_CONF="$R/slurm.conf"
 
 stop() {
   for pid in "$R"/d-b.pid "$R"/d-a.pid "$R"/c.pid "$R"/munge/pid; do
-    [ -s "$pid" ] && kill "$(cat "$pid")" 2>/dev/null || true
+    if [ -s "$pid" ] && [ -d "/proc/$(cat "$pid")" ]; then kill "$(cat "$pid")"; fi
   done
+}
+
+is_alive() { [ -d "/proc/$1" ] && ! grep -q '^State:[[:space:]]*Z' "/proc/$1/status" 2>/dev/null; }
+
+is_dead_soon() {
+  for _ in $(seq 50); do
+    if ! is_alive "$1"; then return 0; fi
+    sleep 0.1
+  done
+  echo "process $1 does not die" >&2
+  return 1
+}
+
+# As a power cut would: the node's daemon, then what keeps its jobs and would tell, then the jobs.
+kill_node() {
+  local keepers="" jobs="" pid parent
+  for pid in $(cd /proc && echo [0-9]*); do
+    { tr '\0' '\n' <"/proc/$pid/environ" | grep -qx "SLURMD_NODENAME=$1"; } 2>/dev/null || continue
+    { tr '\0' '\n' <"/proc/$pid/environ" | grep -qxF "SLURM_CONF=$SLURM_CONF"; } 2>/dev/null || continue
+    jobs="$jobs $pid"
+    parent=$(awk '/^PPid:/ { print $2 }' "/proc/$pid/status" 2>/dev/null) || continue
+    case "$(cat "/proc/$parent/comm" 2>/dev/null)" in slurmstepd*) keepers="$keepers $parent" ;; esac
+  done
+  echo "killing node $1: daemon $(cat "$R/d-$1.pid"), keepers$keepers, jobs$jobs"
+  if [ -z "$jobs" ]; then
+    echo "the node had no job" >&2
+    return 1
+  fi
+  # The end of one may be the end of the next: what counts is that none is left.
+  for pid in "$(cat "$R/d-$1.pid")" $keepers $jobs; do
+    if is_alive "$pid"; then kill -9 "$pid" || is_dead_soon "$pid"; fi
+  done
+  for pid in "$(cat "$R/d-$1.pid")" $keepers $jobs; do is_dead_soon "$pid"; done
 }
 
 start() {
@@ -58,14 +92,17 @@ CONF
   slurmd -N a
   slurmd -N b
   for _ in $(seq 300); do
-    idle=$(sinfo -h -t idle -o %D 2>/dev/null || true)
-    [ "$idle" = 2 ] && return 0
+    if ! idle=$(sinfo -h -t idle -o %D 2>&1); then
+      sleep 0.2  # the controller does not answer yet
+      continue
+    fi
+    if [ "$idle" = 2 ]; then return 0; fi
     sleep 0.2
   done
-  echo "the nodes did not come up" >&2
+  echo "the nodes did not come up; sinfo said: $idle" >&2
   tail -n 5 "$R"/log/*.log >&2
   stop
   return 1
 }
 
-"$what"
+"$what" "${@:3}"

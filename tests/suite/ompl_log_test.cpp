@@ -2,16 +2,17 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <sqlite3.h>
 #include <sstream>
 
 #include <gtest/gtest.h>
 
+#include "tests/suite/asked.h"
 #include "tests/suite/small_suite.h"
 
 namespace prehensile::suite {
 namespace {
 
+using testing::asked;
 using testing::Bench;
 using testing::Folder;
 using testing::small_suite;
@@ -58,29 +59,18 @@ TEST(OmplLog, HasAsManyFieldsAsItDeclares) {
   }
 }
 
-double asked(const std::filesystem::path& file, const std::string& sql) {
-  sqlite3* handle = nullptr;
-  double value = -1.0;
-  sqlite3_open(file.c_str(), &handle);
-  sqlite3_stmt* statement = nullptr;
-  EXPECT_EQ(sqlite3_prepare_v2(handle, sql.c_str(), -1, &statement, nullptr), SQLITE_OK)
-      << sqlite3_errmsg(handle);
-  if (sqlite3_step(statement) == SQLITE_ROW) value = sqlite3_column_double(statement, 0);
-  sqlite3_finalize(statement);
-  sqlite3_close(handle);
-  return value;
-}
-
-/// OMPL's own script (Debian: ompl-demos), by its name or by what OMPL_STATISTICS says.
+/// OMPL's own script (Debian: ompl-demos), by its name or by what OMPL_STATISTICS says;
+/// empty: it is not installed.
 std::string script() {
   if (const char* given = std::getenv("OMPL_STATISTICS")) return given;
-  return "ompl_benchmark_statistics";
+  const std::string name = "ompl_benchmark_statistics";
+  return std::system(("command -v " + name + " > /dev/null").c_str()) == 0 ? name : "";
 }
 
 TEST(OmplLogFull, IsReadByOmplsScript) {
-  if (std::system((script() + " --help > /dev/null 2>&1").c_str()) != 0) {
-    GTEST_SKIP() << "ompl_benchmark_statistics is not installed (Debian: ompl-demos)";
-  }
+  if (script().empty())
+    GTEST_SKIP() << "not installed: ompl_benchmark_statistics "
+                    "(Debian: ompl-demos)";
   const Folder folder;
   const Bench bench(small_suite());
   bench.run(folder / "a.db");

@@ -2,17 +2,19 @@
 
 #include <csignal>
 #include <fstream>
-#include <sqlite3.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 
 #include <gtest/gtest.h>
 
+#include "tests/suite/asked.h"
 #include "tests/suite/small_suite.h"
 
 namespace prehensile::suite {
 namespace {
 
+using prehensile::testing::message_of;
+using testing::asked;
 using testing::Bench;
 using testing::facts;
 using testing::Folder;
@@ -27,30 +29,6 @@ ResultRow row_of(int problem, double cost = 1.5) {
   row.record.message = "'; DROP TABLE runs; --";
   row.record.progress = {{0.1, kNothing}, {0.2, 1.75}, {0.25, cost}};
   return row;
-}
-
-template <typename Call>
-std::string message_of(const Call& call) {
-  try {
-    call();
-  } catch (const BadInput& bad) {
-    return bad.what();
-  }
-  return {};
-}
-
-/// One number of a question to SQLite itself.
-double asked(const std::filesystem::path& file, const std::string& sql) {
-  sqlite3* handle = nullptr;
-  double value = -1.0;
-  EXPECT_EQ(sqlite3_open(file.c_str(), &handle), SQLITE_OK);
-  sqlite3_stmt* statement = nullptr;
-  EXPECT_EQ(sqlite3_prepare_v2(handle, sql.c_str(), -1, &statement, nullptr), SQLITE_OK)
-      << sqlite3_errmsg(handle);
-  if (sqlite3_step(statement) == SQLITE_ROW) value = sqlite3_column_double(statement, 0);
-  sqlite3_finalize(statement);
-  sqlite3_close(handle);
-  return value;
 }
 
 TEST(Results, ComeBackAsWritten) {

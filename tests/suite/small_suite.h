@@ -4,33 +4,13 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <unistd.h>
 
 #include "benchmarks/suite/run_suite.h"
+#include "tests/io/files.h"
 
 namespace prehensile::suite::testing {
 
-/// A fresh folder that is removed at the end.
-class Folder {
- public:
-  Folder() {
-    std::string name =
-        (std::filesystem::temp_directory_path() / "prehensile-XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+using prehensile::testing::Folder;
 
 inline std::string small_suite(const std::string& planners = "  - {planner: push}\n",
                                const std::string& limits = "") {

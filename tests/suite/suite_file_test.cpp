@@ -3,6 +3,9 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <regex>
+#include <set>
+#include <sstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -12,6 +15,7 @@
 #include <valijson/validator.hpp>
 
 #include "benchmarks/suite/run_one.h"
+#include "benchmarks/suite/study_programs.h"
 #include "io/document.h"
 #include "io/plan_file.h"
 
@@ -46,6 +50,8 @@ std::vector<fs::path> shipped_suites() {
 
 const std::string kHead = "version: 1\nname: s\nplanners:\n  - {planner: push}\n";
 const std::string kFamily = "families:\n  - {name: f, published: {object: square}}\n";
+
+const std::string kStudy = "studies:\n  - {name: i, program: instant}\n";
 
 TEST(SuiteFile, ReadsEveryField) {
   const Suite suite =
@@ -94,8 +100,11 @@ TEST(SuiteFile, SaysWhatIsWrongAndWhere) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {kHead + kFamily + "famliies: 1\n",
        "s.yaml:7: famliies: unknown key: expected one of version, name, families, "
-       "planners, limits, repetitions, quick; did you mean families?"},
-      {kHead, "s.yaml:1: families: missing: expected a list of maps"},
+       "planners, studies, limits, repetitions, quick; did you mean families?"},
+      {kHead, "s.yaml:1: families: expected families and planners, or studies"},
+      {"version: 1\nname: s\n" + kFamily,
+       "s.yaml:1: planners: expected planners for the families"},
+      {kHead + kStudy, "s.yaml:1: families: expected families for the planners"},
       {kHead + kFamily + "quick: 0\n",
        "s.yaml:7: quick: 0: expected a whole number from 1 to 1000000"},
       {kHead + kFamily + "repetitions: 1.5\n",
@@ -136,6 +145,62 @@ TEST(SuiteFile, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(message_of(kHead + kFamily), "");
 }
 
+TEST(SuiteFile, ReadsStudies) {
+  const Suite suite =
+      parse_suite(
+          "version: 1\nname: s\nstudies:\n"
+          "  - {name: a, program: integrators, arguments: ['--pushes', '40']}\n"
+          "  - {name: b, program: truth, data: real/pushes}\n"
+          "  - {name: c, program: mechanics_tests,\n"
+          "     arguments: ['--gtest_filter=*FullA*:B.*']}\n",
+          "s.yaml", {"push"}, "")
+          .suite;
+  ASSERT_EQ(suite.studies.size(), 3u);
+  EXPECT_TRUE(suite.families.empty());
+  EXPECT_EQ(suite.studies[0].program, StudyProgram::kIntegrators);
+  EXPECT_EQ(suite.studies[0].arguments, (std::vector<std::string>{"--pushes", "40"}));
+  EXPECT_EQ(suite.studies[1].data, "real/pushes");
+  EXPECT_EQ(suite.studies[2].arguments[0], "--gtest_filter=*FullA*:B.*");
+}
+
+TEST(SuiteFile, StudiesNameProgramsAndNoFiles) {
+  const auto study = [](const std::string& fields) {
+    return message_of("version: 1\nname: s\nstudies:\n  - {" + fields + "}\n");
+  };
+  const auto argument = [&](const std::string& word) {
+    return study("name: a, program: push, arguments: ['" + word + "']");
+  };
+  EXPECT_EQ(argument("--pushes"), "");
+  for (const std::string word :
+       {"/etc/passwd", "a b", "$HOME", "`ls`", "a;b", "", "a/../b", "a\\b", "a|b"}) {
+    const std::string message = argument(word);
+    EXPECT_NE(message.find("studies.0.arguments.0: "), std::string::npos) << message;
+    EXPECT_NE(message.find("expected letters, digits"), std::string::npos) << message;
+  }
+  for (const char* word :
+       {"-o", "--charts", "--plots", "--quick", "--gtest_output=xml"}) {
+    EXPECT_EQ(argument(word), "s.yaml:4: studies.0.arguments.0: \"" + std::string(word) +
+                                  "\": expected no option that the command sets itself");
+  }
+  EXPECT_NE(study("name: a, program: /bin/sh").find("expected one of instant, spatial"),
+            std::string::npos);
+  EXPECT_NE(study("name: a, program: bash").find("studies.0.program: bash: expected"),
+            std::string::npos);
+  EXPECT_NE(study("name: a b, program: push").find("studies.0.name: a b: expected one"),
+            std::string::npos);
+  EXPECT_NE(study("name: a, program: push}\n  - {name: a, program: push")
+                .find("studies.1.name: a: expected a name that no other entry has"),
+            std::string::npos);
+  EXPECT_NE(study("name: a, program: push, data: d").find("expected none"),
+            std::string::npos);
+  for (const char* data : {"", ", data: /d", ", data: ../d", ", data: a/../../d"}) {
+    EXPECT_NE(
+        study(std::string("name: a, program: truth") + data).find("studies.0.data: "),
+        std::string::npos)
+        << data;
+  }
+}
+
 TEST(SuiteFile, ShippedSuitesAreRead) {
   ASSERT_FALSE(shipped_suites().empty());
   for (const fs::path& file : shipped_suites()) {
@@ -150,6 +215,52 @@ TEST(SuiteFile, ShippedSuitesAreRead) {
     const bool is_excused =
         planners.size() == 1 && message.find("expected one of push") != std::string::npos;
     EXPECT_TRUE(message.empty() || is_excused) << message;
+  }
+}
+
+/// A command of the documentation, without what names files: program and arguments.
+using Command = std::pair<std::string, std::vector<std::string>>;
+
+/// All commands whose figures docs/benchmarks.md prints.
+std::set<Command> documented_commands() {
+  std::set<Command> commands;
+  const std::string text = text_of(kRoot / "docs" / "benchmarks.md");
+  const std::regex program("build/release/benchmarks/bench_([a-z]+)([^\n]*)");
+  for (std::sregex_iterator it(text.begin(), text.end(), program), end; it != end; ++it) {
+    std::istringstream words((*it)[2]);
+    Command command{(*it)[1], {}};
+    for (std::string word; words >> word;) {
+      const bool names_file =
+          word == "-o" || word == "[-o" || word == "--charts" || word == "--plots";
+      if (names_file) words >> word;
+      const bool is_data = word == "DATA" || word == "FOLDER";
+      if (!names_file && !is_data) command.second.push_back(word);
+    }
+    commands.insert(command);
+  }
+  const std::regex tests("([a-z]+_tests) (--gtest_filter=)'?([A-Za-z.*]+)");
+  for (std::sregex_iterator it(text.begin(), text.end(), tests), end; it != end; ++it) {
+    commands.insert({(*it)[1], {(*it)[2].str() + (*it)[3].str()}});
+  }
+  return commands;
+}
+
+TEST(SuiteFile, NumericsHasEveryDocumentedCommand) {
+  const Suite suite =
+      read_suite(kRoot / "benchmarks" / "suites" / "numerics.yaml", {}).suite;
+  std::set<Command> studies;
+  std::set<StudyProgram> programs;
+  for (const Study& study : suite.studies) {
+    studies.insert({std::string(program_of(study).word), study.arguments});
+    programs.insert(study.program);
+  }
+  EXPECT_EQ(programs.size(), kStudyPrograms.size()) << "a program that nobody runs";
+  const std::set<Command> documented = documented_commands();
+  EXPECT_GE(documented.size(), 20u);
+  for (const auto& [program, arguments] : documented) {
+    std::string words = program;
+    for (const std::string& argument : arguments) words += ' ' + argument;
+    EXPECT_TRUE(studies.contains({program, arguments})) << words;
   }
 }
 
@@ -177,7 +288,9 @@ TEST(SuiteFile, SchemaAgreesWithTheReader) {
   for (const fs::path& file : shipped_suites())
     EXPECT_TRUE(accepts(text_of(file))) << file;
   EXPECT_TRUE(accepts(kHead + kFamily));
-  EXPECT_FALSE(accepts(kHead));
+  EXPECT_TRUE(accepts("version: 1\nname: s\n" + kStudy));
+  EXPECT_FALSE(accepts("version: 1\n" + kFamily)) << "no name";
+  EXPECT_FALSE(accepts("version: 1\nname: s\nstudies:\n  - {name: i, program: sh}\n"));
   EXPECT_FALSE(accepts(kHead + kFamily + "unknown: 1\n"));
   EXPECT_FALSE(accepts(kHead + kFamily + "quick: 0\n"));
   EXPECT_FALSE(accepts(kHead + "families:\n  - {name: f, published: {object: round}}\n"));

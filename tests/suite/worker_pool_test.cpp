@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <fstream>
 #include <map>
 #include <thread>
 #include <unistd.h>
@@ -9,12 +10,24 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/sanitizers.h"
+
 namespace prehensile::suite {
 namespace {
 
 Ending end_of(const ProcessLimits& limits, const std::function<std::string()>& work) {
   WorkerPool pool(1, limits);
   pool.start(7, work);
+  for (;;) {
+    if (const auto ending = pool.wait(1.0)) return *ending;
+  }
+}
+
+Ending end_of(const ProcessLimits& limits, const std::string& script) {
+  WorkerPool pool(1, limits);
+  pool.start(7, ProgramCall{.program = "/bin/sh",
+                            .arguments = {"-c", script, "name", "two words"},
+                            .folder = "/tmp"});
   for (;;) {
     if (const auto ending = pool.wait(1.0)) return *ending;
   }
@@ -65,7 +78,7 @@ TEST(WorkerPool, EndsWhatWaitsForEver) {
   EXPECT_EQ(ending.kind, Ending::Kind::kTimeout);
 }
 
-#if !defined(__SANITIZE_ADDRESS__)
+#if !PREHENSILE_SANITIZED  // which needs more than any limit
 TEST(WorkerPool, EndsWhatEatsMemory) {
   const ProcessLimits limits{.memory_MB = 100.0};
   const auto eat = [] {
@@ -85,6 +98,62 @@ TEST(WorkerPool, EndsWhatEatsMemory) {
   EXPECT_EQ(inside_noexcept.kind, Ending::Kind::kOutOfMemory);
 }
 #endif
+
+TEST(WorkerPool, BringsBackWhatAProgramPrints) {
+  const Ending ending = end_of({}, "pwd; echo \"$1\" >&2; cat");
+  EXPECT_EQ(ending.kind, Ending::Kind::kDone);
+  EXPECT_EQ(ending.exit_code, 0);
+  EXPECT_EQ(ending.text, "/tmp\ntwo words\n");
+  EXPECT_GT(ending.wall_time, 0.0);
+}
+
+TEST(WorkerPool, TellsHowAProgramEnded) {
+  const Ending failed = end_of({}, "echo sorry; exit 71");
+  EXPECT_EQ(failed.kind, Ending::Kind::kCrashed);
+  EXPECT_EQ(failed.exit_code, 71);
+  EXPECT_EQ(failed.text, "sorry\n");
+  const Ending killed = end_of({}, "kill -SEGV $$");
+  EXPECT_EQ(killed.kind, Ending::Kind::kCrashed);
+  EXPECT_EQ(killed.signal, SIGSEGV);
+  EXPECT_EQ(killed.exit_code, -1);
+  WorkerPool pool(1, {});
+  pool.start(0,
+             ProgramCall{.program = "/no/such/program", .arguments = {}, .folder = "/"});
+  auto ending = pool.wait(60.0);
+  while (!ending) ending = pool.wait(60.0);
+  EXPECT_EQ(ending->exit_code, kExitNotStarted);
+}
+
+TEST(WorkerPool, EndsAProgramWithAllThatItStarted) {
+  const Ending busy =
+      end_of({.cpu_time = 0.05, .wall_time = 60.0}, "while :; do :; done");
+  EXPECT_EQ(busy.kind, Ending::Kind::kTimeout);
+  const Ending silent =
+      end_of({.cpu_time = 60.0, .wall_time = 0.3}, "echo here; exec >&- 2>&-; sleep 600");
+  EXPECT_EQ(silent.kind, Ending::Kind::kTimeout);
+  EXPECT_EQ(silent.text, "here\n");
+  // The second sleep would hold the pipe open for long.
+  const Ending idle = end_of({.cpu_time = 60.0, .wall_time = 0.3},
+                             "echo here; sleep 600 & echo $!; sleep 600");
+  EXPECT_EQ(idle.kind, Ending::Kind::kTimeout);
+  EXPECT_EQ(idle.signal, SIGKILL);
+  ASSERT_TRUE(idle.text.starts_with("here\n")) << idle.text;
+  const pid_t other = std::stoi(idle.text.substr(5));
+  bool is_gone = false;
+  for (int i = 0; i < 500 && !is_gone; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    std::ifstream in("/proc/" + std::to_string(other) + "/stat");
+    std::string id, name, state;
+    is_gone = !(in >> id >> name >> state) || state == "Z" || state == "X";
+  }
+  EXPECT_TRUE(is_gone);
+}
+
+TEST(WorkerPool, KeepsTheFirstOfWhatIsTooMuch) {
+  const Ending ending = end_of({}, "head -c 9000000 /dev/zero");
+  EXPECT_EQ(ending.kind, Ending::Kind::kDone);
+  EXPECT_EQ(ending.text.size(), 8'000'000u);
+}
 
 TEST(WorkerPool, RunsSeveralAtATime) {
   WorkerPool pool(3, {});

@@ -9,6 +9,12 @@ if(PREHENSILE_IPOPT)
   find_package(Ipopt MODULE REQUIRED)
 endif()
 
+if(PREHENSILE_OBSTACLES)
+  find_package(fcl 0.7 REQUIRED)
+  add_library(prehensile_fcl INTERFACE)
+  target_link_libraries(prehensile_fcl INTERFACE fcl)
+endif()
+
 if(PREHENSILE_OMPL)
   # OMPL 1.5 exports variables, no target.
   find_package(ompl 1.5 REQUIRED)
@@ -27,20 +33,29 @@ if(PREHENSILE_APPS)
   find_package(Threads REQUIRED)
 endif()
 
+if(PREHENSILE_APPS OR PREHENSILE_MESHES)
+  find_package(tinyxml2 REQUIRED)
+endif()
+
+if(PREHENSILE_APPS AND PREHENSILE_MUJOCO)
+  # The configuration that Debian installs asks for OpenGL, which this does not use.
+  find_path(MUJOCO_INCLUDE mujoco/mujoco.h REQUIRED)
+  find_library(MUJOCO_LIBRARY mujoco REQUIRED)
+  add_library(prehensile_mujoco INTERFACE)
+  target_include_directories(prehensile_mujoco SYSTEM INTERFACE ${MUJOCO_INCLUDE})
+  target_link_libraries(prehensile_mujoco INTERFACE ${MUJOCO_LIBRARY})
+endif()
+
 if(PREHENSILE_APPS AND PREHENSILE_SUITE)
   find_package(SQLite3 3.24 REQUIRED)
 endif()
 
 if(PREHENSILE_APPS AND PREHENSILE_VIEWER AND PREHENSILE_GLTF)
-  find_package(TinyGLTF QUIET)
-  if(NOT TinyGLTF_FOUND)
-    message(STATUS "No TinyGLTF: view --glb will refuse")
-  endif()
+  find_package(TinyGLTF REQUIRED)
 endif()
 
 if(PREHENSILE_MESHES)
   find_package(assimp 5.2 REQUIRED)
-  find_package(tinyxml2 REQUIRED)
   find_path(POLYCLIPPING_INCLUDE polyclipping/clipper.hpp REQUIRED)
   find_library(POLYCLIPPING_LIBRARY polyclipping REQUIRED)
   add_library(prehensile_polyclipping INTERFACE)

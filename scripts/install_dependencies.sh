@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that are missing: for building and testing, and with --lint those
-# of the format and lint checks too. Does nothing where everything is there.
+# Installs the Debian packages that are missing: for building and testing; with --lint those of the
+# format and lint checks too, with --full those of the tests of label `full`. Does nothing where
+# everything is there.
 set -euo pipefail
 
 packages=(
@@ -8,17 +9,29 @@ packages=(
   libeigen3-dev                                   # linear algebra
   libompl-dev libboost-serialization-dev          # sampling planners, and what their package
   libboost-filesystem-dev libboost-system-dev     # needs but does not ask for
+  libfcl-dev                                      # distances of obstacles
   libnlopt-cxx-dev coinor-libipopt-dev            # optimisation
   libyaml-cpp-dev nlohmann-json3-dev libcli11-dev zlib1g-dev # files and command line
   libsqlite3-dev                                  # results of benchmark suites
   libassimp-dev libpolyclipping-dev libtinyxml2-dev # meshes of objects
   libtinygltf-dev                                 # plans as animated GLB files
+  libmujoco-dev                                   # a second opinion on plans
   libfccp-dev                                     # benchmarks only: tables of real pushes
   libgtest-dev libvalijson-dev                    # tests only
 )
-if [ "${1:-}" = "--lint" ]; then
-  packages+=(clang clang-format clang-tidy git)
-fi
+case "${1:-}" in
+  "") ;;
+  --lint) packages+=(clang clang-format clang-tidy git) ;;
+  --full)
+    packages+=(
+      chromium            # opens the pages of the viewer
+      ompl-demos          # OMPL's script reads benchmark logs
+      slurm-wlm munge     # suites on a cluster of two nodes
+    ) ;;
+  *)
+    echo "usage: install_dependencies.sh [--lint | --full]" >&2
+    exit 2 ;;
+esac
 
 missing=()
 for package in "${packages[@]}"; do

@@ -4,7 +4,9 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
+label=${1:-default}
 bash scripts/install_dependencies.sh
+if [ "$label" = full ]; then bash scripts/install_dependencies.sh --full; fi
 cmake --preset release
 cmake --build --preset release
-ctest --preset "${1:-default}" -j "$(nproc)"
+bash scripts/run_tests.sh "$label"

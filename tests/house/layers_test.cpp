@@ -31,9 +31,10 @@ const std::map<std::string, std::set<std::string>> kLeftOf = {
     {"plot", {"plot"}},
     {"viewer",
      {"scene", "optimisation", "mechanics", "primitives", "planner", "plot", "viewer"}},
+    {"mjcf", {"scene", "optimisation", "mechanics", "primitives", "planner", "mjcf"}},
     {"apps",
      {"scene", "optimisation", "mechanics", "primitives", "planner", "mesh", "io", "plot",
-      "viewer", "apps"}},
+      "viewer", "mjcf", "apps"}},
 };
 
 /// Where a third party, or a part of the standard library, may be named.
@@ -49,6 +50,7 @@ std::vector<Room> rooms() {
   };
   return {
       room("^ompl/", "^planner/ompl/.*|^planner/ompl_interface\\.h$"),
+      room("^fcl/", "^planner/fcl/.*"),
       room("^nlopt", "^optimisation/nlopt_backend\\.cpp$"),
       room("^Ip.*\\.hpp$|^coin", "^optimisation/ipopt_backend\\.cpp$"),
       room("^yaml-cpp/", "^io/.*"),
@@ -56,7 +58,8 @@ std::vector<Room> rooms() {
       room("^CLI/", "^apps/.*"),
       room("^assimp/", "^mesh/import\\.cpp$"),
       room("^polyclipping/", "^mesh/plane_regions\\.cpp$"),
-      room("^tinyxml2\\.h$", "^mesh/urdf\\.cpp$"),
+      room("^tinyxml2\\.h$", "^mesh/urdf\\.cpp$|^mjcf/elements\\.h$"),
+      room("^mujoco/", "^mjcf/mujoco_replay\\.cpp$"),
       room("^tiny_gltf\\.h$", "^viewer/animation_glb\\.cpp$"),
       room("^sqlite3\\.h$", "^$"),
       room("^zlib\\.h$", "^io/gzip\\.cpp$"),

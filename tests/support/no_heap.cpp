@@ -2,22 +2,13 @@
 
 #include <cstddef>
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define PREHENSILE_COUNT_HEAP 0
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define PREHENSILE_COUNT_HEAP 0
-#endif
-#endif
-#ifndef PREHENSILE_COUNT_HEAP
-#define PREHENSILE_COUNT_HEAP 1
-#endif
+#include "tests/support/sanitizers.h"
 
 namespace {
 thread_local long allocation_count = 0;
 }
 
-#if PREHENSILE_COUNT_HEAP
+#if !PREHENSILE_SANITIZED
 extern "C" {
 // The names are those of glibc.
 // NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
@@ -49,6 +40,6 @@ long NoHeapScope::allocations() const {
   return heap_is_counted() ? allocation_count - at_start_ : -1;
 }
 
-bool heap_is_counted() { return PREHENSILE_COUNT_HEAP != 0; }
+bool heap_is_counted() { return PREHENSILE_SANITIZED == 0; }
 
 }  // namespace prehensile::testing

@@ -11,12 +11,24 @@
 namespace prehensile::apps {
 namespace {
 
-ArmLimits limits_of(const ArmOptions& options) {
+/// A plan is clear of obstacles for as long an approach as the scene says.
+double clearance_of(const ArmOptions& options, const Scene& scene) {
+  const double usual =
+      scene.obstacles ? scene.obstacles->approach : options.limits.clearance;
+  const double wanted = options.clearance_mm ? 1e-3 * *options.clearance_mm : usual;
+  if (!scene.obstacles || wanted <= usual) return wanted;
+  throw BadInput(
+      text("--clearance-mm %g: expected at most %g, obstacles.approach of the "
+           "scene: the plan is clear of obstacles no farther from its pushers",
+           1e3 * wanted, 1e3 * usual));
+}
+
+ArmLimits limits_of(const ArmOptions& options, const Scene& scene) {
   ArmLimits limits = options.limits;
   limits.push_speed = 1e-3 * options.push_speed_mm;
   limits.approach_speed = 1e-3 * options.approach_speed_mm;
   limits.transit_speed = 1e-3 * options.transit_speed_mm;
-  limits.clearance = 1e-3 * options.clearance_mm;
+  limits.clearance = clearance_of(options, scene);
   limits.turn_speed = options.turn_speed_deg * std::numbers::pi / 180.0;
   return limits;
 }
@@ -63,7 +75,11 @@ void add_arm_options(CLI::App& command, ArmOptions& options) {
          1e3);
   number("--turn-acceleration", options.limits.turn_acceleration, "at most, in rad/s^2",
          1e4);
-  number("--clearance-mm", options.clearance_mm, "from a pusher before and after", 1e3);
+  command
+      .add_option("--clearance-mm", options.clearance_mm,
+                  "from a pusher before and after; default 30, or obstacles.approach of "
+                  "the scene")
+      ->check(CLI::Range(1e-3, 1e3));
   number("--arm-rate-hz", options.limits.rate, "samples per second", 1e3);
   number("--guard-factor", options.limits.guard_factor,
          "guard force over the greatest force expected", 100.0);
@@ -77,7 +93,7 @@ std::string write_arm_files(const ArmOptions& options, const Model& model,
                             const PlanFile& plan) {
   if (options.files.empty()) return {};
   if (!plan.plan.usable()) return "no plan, so no arm file is written\n";
-  const ArmLimits limits = limits_of(options);
+  const ArmLimits limits = limits_of(options, model.scene);
   refuse_endless(plan.plan, limits);
   const ArmMotion motion = arm_motion(model, plan.plan, limits);
   const double seconds = motion.samples.empty() ? 0.0 : motion.samples.back().t;

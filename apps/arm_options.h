@@ -1,6 +1,7 @@
 /// The options of `plan` that write what the robot has to do.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,9 @@ struct ArmOptions {
   std::vector<std::string> files;  ///< by extension: .csv, .tum, .yaml
   ArmLimits limits;
   double push_speed_mm = 20.0, approach_speed_mm = 30.0, transit_speed_mm = 100.0;
-  double clearance_mm = 30.0, turn_speed_deg = 30.0;
+  double turn_speed_deg = 30.0;
+  std::optional<double> clearance_mm;  ///< unset: the approach of the scene's obstacles,
+                                       ///< or that of ArmLimits
 };
 void add_arm_options(CLI::App& command, ArmOptions& options);
 

@@ -7,6 +7,7 @@
 
 #include "apps/commands.h"
 #include "apps/json_number.h"
+#include "apps/mujoco_output.h"
 #include "apps/parallel.h"
 #include "apps/plan_report.h"
 #include "apps/plan_samples.h"
@@ -28,6 +29,7 @@ struct Options {
   int jobs = 0;
   double at_least = 0.0;  // share of success
   std::string success = "sticks";
+  MujocoCheck mujoco;
 };
 
 /// What is uncertain: as the command line says, else the scene, else the usual box.
@@ -87,9 +89,11 @@ nlohmann::ordered_json to_json(const Replay& replay) {
 }
 
 int run(const Options& options) {
+  check_mujoco_options(options.mujoco);
   const PlanFile file = read_plan(options.file);
   const Model model = prepare(file.scene);
   if (!file.plan.usable()) return check_refusal(model, file, options.json);
+  check_carried(options.mujoco, model, file.plan);
   const Replay replayed = replay(model, file.plan);
   nlohmann::ordered_json json = to_json(replayed);
   std::string text = describe(model, file.plan, replayed);
@@ -107,12 +111,19 @@ int run(const Options& options) {
               std::to_string(options.at_least) + ")\n";
     }
   }
+  bool is_seconded = true;
+  if (options.mujoco.wanted) {
+    const mjcf::MujocoReplay second = second_opinion(model, file.plan, options.mujoco);
+    is_seconded = agrees(second);
+    json["mujoco"] = mujoco_json(file.plan, second);
+    text += describe(model, file.plan, second);
+  }
   if (options.json) {
     std::printf("%s\n", json.dump(2).c_str());
   } else {
     std::fputs(text.c_str(), stdout);
   }
-  return replayed.agrees && is_reached ? kDone : kNegative;
+  return replayed.agrees && is_reached && is_seconded ? kDone : kNegative;
 }
 
 }  // namespace
@@ -146,11 +157,13 @@ Command add_check(CLI::App& app) {
                   "a goal, too")
       ->check(CLI::IsMember({"sticks", "goal"}))
       ->capture_default_str();
+  add_mujoco_options(command, options->mujoco);
   command.footer(
       "Without --vary the samples are of the scene's uncertainty, or else of the usual "
       "margin.\nExample:\n  prehensile check plan.json\n"
       "  prehensile check plan.json --samples 2000 --vary friction=0.2,grasp_mm=1 "
-      "--at-least 0.95");
+      "--at-least 0.95\n"
+      "  prehensile check plan.json --mujoco");
   return [options] { return run(*options); };
 }
 

@@ -1,5 +1,3 @@
-#include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <memory>
 
@@ -7,6 +5,7 @@
 
 #include "apps/arm_options.h"
 #include "apps/commands.h"
+#include "apps/interrupt.h"
 #include "apps/plan_report.h"
 #include "apps/planner_options.h"
 #include "apps/progress_line.h"
@@ -21,14 +20,6 @@
 
 namespace prehensile::apps {
 namespace {
-
-std::atomic<bool> stop_requested{false};
-
-/// The first signal asks the search to stop; a second one ends the program.
-void request_stop(int signal) {
-  stop_requested.store(true);
-  std::signal(signal, SIG_DFL);
-}
 
 struct Options {
   SceneOptions scene;
@@ -61,7 +52,7 @@ Plan planned(const Options& options, const Model& model) {
   set_planner(options.planner, plan_options);
   set_margin(options, model, plan_options);
   plan_options.polish = !options.no_polish;
-  plan_options.stop = &stop_requested;
+  plan_options.stop = &stop_on_signals();
   plan_options.progress = [&line](const SearchProgress& p) { line.show(p); };
   Plan plan = plan_regrasp(model, plan_options);
   const bool needs_advice = !plan.usable() || plan.promise == Promise::kNominalOnly;
@@ -85,8 +76,6 @@ int run(const Options& options) {
                    ": uncertainty: missing: expected with --robust, as in "
                    "uncertainty: {friction: 0.2, start_position: 0.001}");
   }
-  std::signal(SIGINT, request_stop);
-  std::signal(SIGTERM, request_stop);
 
   const Model model = prepare(file.scene);
   note_pad_plane(model, "searched in the pad plane; every push is then checked in space");

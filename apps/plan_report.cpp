@@ -106,7 +106,8 @@ std::string pose_text(const Model& model, const Grasp& grasp) {
 
 std::string describe(const Model& model, const Plan& plan) {
   std::string out = model.scene.name + ": " + std::string(name(plan.status)) + '\n';
-  if (!plan.message.empty()) out += plan.message + '\n';
+  const bool is_said_below = plan.message == plan.proof.text;
+  if (!plan.message.empty() && !is_said_below) out += plan.message + '\n';
   out += "start: " + pose_text(model, plan.start) + '\n';
   if (plan.proof.kind != Proof::Kind::kNone) {
     out +=
@@ -143,9 +144,9 @@ std::string describe(const Model& model, const Plan& plan, const Replay& replay)
   if (!replay.pushes.empty()) out += table.str();
   if (!replay.why.empty()) out += replay.why + '\n';
   for (std::size_t i = 0; i < replay.pushes.size(); ++i) {
-    if (!replay.pushes[i].why.empty()) {
-      out += text("push %zu: ", i + 1) + replay.pushes[i].why + '\n';
-    }
+    if (replay.pushes[i].why.empty()) continue;
+    const std::string why = text("push %zu: ", i + 1) + replay.pushes[i].why;
+    if (why != replay.why) out += why + '\n';
   }
   return out + "end:   " + pose_text(model, replay.end) +
          text("; %lld exact instants\n", static_cast<long long>(replay.instants));

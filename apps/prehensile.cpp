@@ -26,6 +26,18 @@ namespace {
 
 std::string remembered_line;
 
+/// A word in place of a command that is none; CLI11 says only that one is required.
+void refuse_unknown_command(const CLI::App& parent, const char* word) {
+  if (!word || *word == '-') return;
+  std::string known;
+  for (const CLI::App* command :
+       parent.get_subcommands([](const CLI::App*) { return true; })) {
+    if (command->get_name() == word) return;
+    known += (known.empty() ? "" : ", ") + command->get_name();
+  }
+  throw BadInput(std::string(word) + ": no such command: expected one of " + known);
+}
+
 int run(int argc, char** argv) {
   CLI::App app{
       "Plans how a robot re-grips what it holds by pushing it against its surroundings"};
@@ -70,6 +82,8 @@ int run(int argc, char** argv) {
   const Command mesh = add_mesh(app);
   commands.emplace_back(app.get_subcommand("mesh"), mesh);
 #endif
+  if (argc > 1) refuse_unknown_command(app, argv[1]);
+  if (argc > 2 && argv[1] == query.get_name()) refuse_unknown_command(query, argv[2]);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -73,7 +73,8 @@ int chosen_contact(const Model& model, const PushOptions& options) {
   }
   const int contact = find_contact(model, pusher, options.face);
   if (contact >= 0) return contact;
-  throw BadInput("--pusher " + pusher + " --face " + options.face +
+  const std::string face = options.face.empty() ? "" : " --face " + options.face;
+  throw BadInput("--pusher " + pusher + face +
                  ": no such contact: expected one of: " + contacts_of(model));
 }
 

@@ -9,10 +9,12 @@
 #include "apps/commands.h"
 #include "apps/grip_report.h"
 #include "apps/json_number.h"
+#include "apps/mujoco_output.h"
 #include "apps/plan_report.h"
 #include "apps/push_options.h"
 #include "apps/table.h"
 #include "apps/view_output.h"
+#include "io/plan_file.h"
 #include "io/scene_file.h"
 #include "planner/plan.h"
 #include "primitives/transition.h"
@@ -27,6 +29,7 @@ struct Options {
   bool grip_range = false;
   double grip_tolerance_mm = 1.0;
   std::string view;
+  std::string mjcf;
 };
 
 /// What the pad plane does not have: forces of the jaws and how their pads press.
@@ -159,18 +162,21 @@ int run(const Options& options) {
   const int contact = chosen_contact(model, options.push);
   const Push push = chosen_push(model, contact, options.push, options.path);
   if (options.grip_range) return run_grip_range(options, model, push);
+  const Plan alone = plan_of(chosen_grasp(model, options.push), push);
+  const std::string mjcf = mjcf_text(options.mjcf, model, alone.pushes);
   std::vector<Sample> trace;
   const Transition transition =
       apply(model, chosen_grasp(model, options.push), push,
             {.tolerance = 1e-6 * options.path.tolerance_um}, &trace);
   if (!options.view.empty()) {
-    const Plan shown = plan_of(chosen_grasp(model, options.push), push);
-    write_view({.page = options.view}, {{model, shown, false, {}}});
+    write_view({.page = options.view}, {{model, alone, false, {}}});
   }
+  if (!mjcf.empty()) write_atomically(options.mjcf, mjcf);
   if (options.scene.json) {
     std::printf("%s\n", to_json(transition, trace).dump(2).c_str());
   } else {
     std::fputs(describe(model, options, transition, trace).c_str(), stdout);
+    if (!options.view.empty()) std::printf("page: %s\n", options.view.c_str());
   }
   return transition.completed() ? kDone : kNegative;
 }
@@ -191,6 +197,7 @@ Command add_query_push(CLI::App& query) {
       ->check(CLI::Range(1e-6, 1e3))
       ->capture_default_str();
   add_view_option(command, options->view);
+  add_mjcf_option(command, options->mjcf);
   command.footer(
       "Example:\n  prehensile query push problems/paper/slide.yaml --kind slide "
       "--travel-mm 15");

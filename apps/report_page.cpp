@@ -40,6 +40,9 @@ data { font-variant-numeric: tabular-nums; white-space: nowrap; }
 code { font: .82rem/1.45 "JetBrains Mono", "DejaVu Sans Mono", Menlo, Consolas, monospace;
   background: var(--tint); border-radius: 3px; padding: .05rem .25rem;
   overflow-wrap: anywhere; }
+pre { font: .76rem/1.4 "JetBrains Mono", "DejaVu Sans Mono", Menlo, Consolas, monospace;
+  background: var(--tint); border-radius: 3px; padding: .5rem .7rem; margin: 0;
+  width: fit-content; min-width: 100%; }
 .statements td:nth-child(1) { width: 25%; } .statements td:nth-child(2) { width: 8%; }
 .statements td:nth-child(4) { width: 8rem; }
 .traps td:nth-child(1) { width: 30%; }
@@ -102,6 +105,10 @@ void ReportPage::table(const std::vector<std::vector<std::string>>& rows,
     body_ += "</tr>\n";
   }
   body_ += "</table></div>\n";
+}
+
+void ReportPage::printed(const std::string& words) {
+  body_ += "<div class=\"scroll\"><pre>" + html(words) + "</pre></div>\n";
 }
 
 void ReportPage::figure(const std::string& id, const std::string& svg,

@@ -23,6 +23,8 @@ class ReportPage {
   /// Cells are HTML; the first row is the header.
   void table(const std::vector<std::vector<std::string>>& rows,
              const std::string& kind = "");
+  /// Lines of a terminal, as they are.
+  void printed(const std::string& words);
   void figure(const std::string& id, const std::string& svg, const std::string& caption);
 
   /// The whole page; `lead` is HTML under the title.

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands.h"
+#include "apps/mujoco_output.h"
 #include "apps/parallel.h"
 #include "apps/plan_samples.h"
 #include "apps/uncertainty_options.h"
@@ -70,6 +71,7 @@ std::string describe(const ViewFiles& out, bool agrees) {
   if (!out.page.empty()) words += "page: " + out.page + '\n';
   if (!out.frames.empty()) words += "key frames: " + out.frames + '\n';
   if (!out.glb.empty()) words += "animation: " + out.glb + '\n';
+  if (!out.mjcf.empty()) words += "MJCF: " + out.mjcf + '\n';
   if (!agrees) words += "a replay does not agree with the plan: the page says why\n";
   return words;
 }
@@ -79,11 +81,16 @@ int run(const Options& options) {
   std::vector<Shown> shown;
   for (const std::string& file : options.files) shown.push_back(read(options, file));
   ViewFiles out = options.out;
-  if (out.page.empty() && out.frames.empty() && out.glb.empty()) out.page = "view.html";
+  if (out.page.empty() && out.frames.empty() && out.glb.empty() && out.mjcf.empty()) {
+    out.page = "view.html";
+  }
   const bool agrees = write_view(out, shown);
   if (options.json) {
-    const nlohmann::ordered_json written = {
-        {"page", out.page}, {"frames", out.frames}, {"glb", out.glb}, {"agrees", agrees}};
+    const nlohmann::ordered_json written = {{"page", out.page},
+                                            {"frames", out.frames},
+                                            {"glb", out.glb},
+                                            {"mjcf", out.mjcf},
+                                            {"agrees", agrees}};
     std::printf("%s\n", written.dump(2).c_str());
   } else {
     std::fputs(describe(out, agrees).c_str(), stdout);
@@ -114,6 +121,8 @@ Command add_view(CLI::App& app) {
                      "also, or only: one picture per push of the first plan (SVG)");
   command.add_option("--glb", options->out.glb,
                      "also, or only: the first plan as an animation (GLB)");
+  command.add_option("--mjcf", options->out.mjcf,
+                     "also, or only: scene and first plan for MuJoCo (MJCF, XML)");
   command
       .add_option("--samples", options->samples,
                   "show where so many members of the uncertainty end")
@@ -128,7 +137,7 @@ Command add_view(CLI::App& app) {
       "with the plan.\n"
       "Example:\n  prehensile view plan.json -o plan.html --samples 200\n"
       "  prehensile view a.json b.json -o compare.html\n"
-      "  prehensile view plan.json --frames plan.svg --glb plan.glb");
+      "  prehensile view plan.json --frames plan.svg --glb plan.glb --mjcf plan.xml");
   return [options] { return run(*options); };
 }
 

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/mujoco_output.h"
 #include "io/plan_file.h"
 #include "viewer/animation_glb.h"
 #include "viewer/film_json.h"
@@ -42,6 +43,9 @@ void check_view_files(const ViewFiles& files) {
 }
 
 bool write_view(const ViewFiles& files, const std::vector<Shown>& shown) {
+  // First, for it may refuse.
+  const Shown& first = shown.front();
+  const std::string mjcf = mjcf_text(files.mjcf, first.model, first.plan.pushes);
   bool all_agree = true;
   std::vector<std::string> films;
   std::string title;
@@ -55,7 +59,8 @@ bool write_view(const ViewFiles& files, const std::vector<Shown>& shown) {
     title += (title.empty() ? "" : " | ") + one.model.scene.name;
     films.push_back(viewer::to_json(one.model, one.plan, film, kPadPoints / parts));
   }
-  write_exports(files, shown.front());
+  write_exports(files, first);
+  if (!mjcf.empty()) write_atomically(files.mjcf, mjcf);
   if (!files.page.empty()) write_atomically(files.page, viewer::page(title, films));
   return all_agree;
 }

@@ -34,6 +34,7 @@ struct ViewFiles {
   std::string page;    ///< HTML
   std::string frames;  ///< SVG: key frames of the first plan
   std::string glb;     ///< animated GLB of the first plan
+  std::string mjcf;    ///< MJCF of the first plan
 };
 
 /// Throws BadInput for files that this build cannot write: before any work.

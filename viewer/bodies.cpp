@@ -50,6 +50,20 @@ struct BodyOf {
   ObjectBody operator()(const MeshShape&) const { return {}; }  // `check` refuses it
 };
 
+struct PadShape {
+  double thin;  // [m] width of what has none
+
+  PadBody operator()(const DiscPad& disc) const { return {circle(disc.radius), true}; }
+  PadBody operator()(const RectanglePad& pad) const {
+    return {rectangle(pad.size.x(), pad.size.y()), false};
+  }
+  PadBody operator()(const LinePad& line) const {
+    return {rectangle(line.length, thin, line.angle), false};
+  }
+  PadBody operator()(const PolygonPad& polygon) const { return {polygon.outline, false}; }
+  PadBody operator()(const PointPad&) const { return {circle(0.5 * thin), true}; }
+};
+
 }  // namespace
 
 ObjectBody object_body(const Model& model) {
@@ -57,18 +71,7 @@ ObjectBody object_body(const Model& model) {
 }
 
 PadBody pad_body(const Model& model) {
-  const double thin = kThinPad * model.L;
-  const Pad& pad = model.scene.gripper.pad;
-  if (const auto* disc = std::get_if<DiscPad>(&pad)) return {circle(disc->radius), true};
-  if (const auto* rectangular = std::get_if<RectanglePad>(&pad)) {
-    return {rectangle(rectangular->size.x(), rectangular->size.y()), false};
-  }
-  if (const auto* line = std::get_if<LinePad>(&pad)) {
-    return {rectangle(line->length, thin, line->angle), false};
-  }
-  if (const auto* polygon = std::get_if<PolygonPad>(&pad))
-    return {polygon->outline, false};
-  return {circle(0.5 * thin), true};
+  return std::visit(PadShape{kThinPad * model.L}, model.scene.gripper.pad);
 }
 
 PusherBody pusher_body(const Model& model, const Pusher& pusher) {

@@ -3,22 +3,20 @@
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
-#include <stdexcept>
 #include <sys/wait.h>
-#include <unistd.h>
 
 namespace prehensile::testing {
 
 namespace fs = std::filesystem;
 
-Outcome run_program(const std::string& arguments) {
-  const Folder folder;
-  const std::string out = folder.path("out").string();
-  const std::string err = folder.path("err").string();
-  const std::string command = std::string("cd " PREHENSILE_SOURCE_DIR " && ") +
-                              PREHENSILE_PROGRAM " " + arguments + " >" + out + " 2>" +
-                              err + " </dev/null";
-  const int status = std::system(command.c_str());
+Outcome run_in_shell(const std::string& commands, const fs::path& folder) {
+  const Folder aside;
+  const std::string script = aside.path("script").string();
+  const std::string out = aside.path("out").string();
+  const std::string err = aside.path("err").string();
+  write_text(script, "cd '" + folder.string() + "'\n" + commands + '\n');
+  const std::string call = "bash " + script + " >" + out + " 2>" + err + " </dev/null";
+  const int status = std::system(call.c_str());
   Outcome outcome;
   if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
   outcome.out = read_text(out);
@@ -26,15 +24,8 @@ Outcome run_program(const std::string& arguments) {
   return outcome;
 }
 
-Folder::Folder() {
-  std::string name = (fs::temp_directory_path() / "prehensile-XXXXXX").string();
-  if (!mkdtemp(name.data())) throw std::runtime_error("cannot make a temporary folder");
-  path_ = name;
-}
-
-Folder::~Folder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
+Outcome run_program(const std::string& arguments) {
+  return run_in_shell(PREHENSILE_PROGRAM " " + arguments, PREHENSILE_SOURCE_DIR);
 }
 
 std::string read_text(const fs::path& file) {

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "tests/support/folder.h"
+
 namespace prehensile::testing {
 
 struct Outcome {
@@ -12,23 +14,11 @@ struct Outcome {
   std::string err;
 };
 
+/// Commands for bash, run in `folder`; the exit code is that of the last.
+Outcome run_in_shell(const std::string& commands, const std::filesystem::path& folder);
+
 /// `arguments` as typed in a shell; the working directory is the source tree.
 Outcome run_program(const std::string& arguments);
-
-/// A fresh folder that is removed at the end.
-class Folder {
- public:
-  Folder();
-  ~Folder();
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  std::filesystem::path path(const std::string& name) const { return path_ / name; }
-  bool empty() const { return std::filesystem::is_empty(path_); }
-
- private:
-  std::filesystem::path path_;
-};
 
 std::string read_text(const std::filesystem::path& file);
 void write_text(const std::filesystem::path& file, const std::string& text);

@@ -6,10 +6,10 @@
 #include <fstream>
 #include <memory>
 #include <regex>
-#include <unistd.h>
 
 #include <gtest/gtest.h>
 
+#include "tests/support/folder.h"
 #include "tests/viewer/film_cases.h"
 #include "viewer/film_json.h"
 #include "viewer/page.h"
@@ -20,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::film_cases;
 using testing::FilmCase;
+using testing::Folder;
 
 /// Everything that a command prints.
 std::string output_of(const std::string& command) {
@@ -45,24 +46,6 @@ std::string browser() {
   }
   return {};
 }
-
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "prehensile-XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  fs::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
 
 /// What a browser makes of a page: the document after its scripts ran, and its console.
 std::string opened(const std::string& program, const Folder& folder,

@@ -42,7 +42,8 @@ class Cluster {
     ::setenv("SLURM_CONF", (folder / "slurm.conf").c_str(), 1);
   }
   ~Cluster() {
-    run("stop");
+    const int stopped = run("stop");
+    if (outcome_ == 0) EXPECT_EQ(stopped, 0) << story();
     ::unsetenv("SLURM_CONF");
   }
   Cluster(const Cluster&) = delete;
@@ -72,6 +73,7 @@ bool wait_for(const fs::path& file, const std::string& task) {
   for (int i = 0; i < 1500; ++i) {
     if (fs::exists(file)) return true;
     if (!task.empty()) {
+      // Refused, with a message, as long as the task is not the one that is held.
       shell("scontrol update JobId=" + task + " StartTime=now > /dev/null 2>&1");
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(200));

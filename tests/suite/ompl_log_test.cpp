@@ -81,10 +81,15 @@ TEST(OmplLogFull, IsReadByOmplsScript) {
     std::ofstream(file) << ompl_log(results, family);
     logs += ' ' + file.string();
   }
-  const std::string quiet = " > /dev/null 2>&1";
-  ASSERT_EQ(std::system(
-                (script() + " -d " + (folder / "b.db").string() + logs + quiet).c_str()),
-            0);
+  const auto succeeds = [&](const std::string& arguments) {
+    const auto said = folder / "said";
+    const std::string command = script() + arguments + " > " + said.string() + " 2>&1";
+    if (std::system(command.c_str()) == 0) return ::testing::AssertionSuccess();
+    std::ostringstream text;
+    text << std::ifstream(said).rdbuf();
+    return ::testing::AssertionFailure() << command << '\n' << text.str();
+  };
+  ASSERT_TRUE(succeeds(" -d " + (folder / "b.db").string() + logs));
   // What the script made of the logs is what our own file says.
   const char* const count_solved =
       "SELECT count(*) FROM runs JOIN enums ON status = value "
@@ -100,9 +105,7 @@ TEST(OmplLogFull, IsReadByOmplsScript) {
   const char* const times = "SELECT sum(time) + sum(cost) FROM runs";
   EXPECT_NEAR(asked(folder / "b.db", times), asked(folder / "a.db", times), 1e-6);
   // And it works on our file itself.
-  ASSERT_EQ(
-      std::system((script() + " -v -d " + (folder / "a.db").string() + quiet).c_str()),
-      0);
+  ASSERT_TRUE(succeeds(" -v -d " + (folder / "a.db").string()));
   EXPECT_EQ(read_results(folder / "a.db").rows.size(), 12u);
 }
 

@@ -14,6 +14,7 @@
 #include "apps/benchmark_studies.h"
 #include "apps/benchmark_text.h"
 #include "apps/interrupt.h"
+#include "apps/version.h"
 #include "benchmarks/suite/run_suite.h"
 #include "io/plan_file.h"
 #include "io/scene_file.h"
@@ -37,7 +38,7 @@ int jobs_of(const Options& options) {
 
 suite::Results header_of(const Options& options, const suite::SuiteFile& file,
                          const suite::ProblemList& problems) {
-  suite::Provenance provenance = suite::provenance_here(PREHENSILE_VERSION);
+  suite::Provenance provenance = suite::provenance_here(version());
   provenance.quick = options.suite.quick;
   provenance.command = command_line();
   return suite::header_of(file, problems, provenance);

@@ -189,14 +189,26 @@ void add_origin(const Results& results, ReportPage& page) {
                  html(results.provenance.suite_text) + "</code>");
 }
 
+const char* name(Measure measure) {
+  switch (measure) {
+    case Measure::kSuccess:
+      return "success";
+    case Measure::kCost:
+      return "cost";
+    case Measure::kTime:
+      return "time";
+  }
+  return "unknown";
+}
+
 /// What the numbers of one test say.
-void judge(const std::string& where, const char* what, double p, int tests, int better,
+void judge(const std::string& where, Measure measure, double p, int tests, int better,
            int worse, bool is_large, const std::string& how_much,
            std::vector<Finding>& out) {
   if (!is_large || suite::for_many(p, tests) >= kNoise) return;
   const bool is_better = better > worse;
-  out.push_back({is_better ? Change::kBetter : Change::kWorse,
-                 where + ": " + what + (is_better ? " better" : " worse") + " (" +
+  out.push_back({measure, is_better ? Change::kBetter : Change::kWorse,
+                 where + ": " + name(measure) + (is_better ? " better" : " worse") + " (" +
                      how_much +
                      text("; %d pairs for, %d against, p = %.1e among %d "
                           "tests)",
@@ -241,12 +253,12 @@ std::vector<Finding> findings(const Results& before,
   for (const Comparison& c : comparisons) {
     const std::string where =
         family_name(before, c.family) + ", " + planner_name(before, c.a);
-    judge(where, "success", c.success_p, tests, c.only_b, c.only_a, true,
+    judge(where, Measure::kSuccess, c.success_p, tests, c.only_b, c.only_a, true,
           text("of %d pairs", c.pairs), out);
-    judge(where, "cost", c.cost_p, tests, c.cheaper_b, c.cheaper_a, true,
+    judge(where, Measure::kCost, c.cost_p, tests, c.cheaper_b, c.cheaper_a, true,
           text("median ratio %.4g", c.cost_ratio), out);
     const double factor = std::max(c.time_ratio, 1.0 / c.time_ratio);
-    judge(where, "time", c.time_p, tests, c.faster_b, c.faster_a, factor > kTimeNoise,
+    judge(where, Measure::kTime, c.time_p, tests, c.faster_b, c.faster_a, factor > kTimeNoise,
           text("median ratio %.3g", c.time_ratio), out);
   }
   return out;

@@ -15,11 +15,13 @@ std::string benchmark_page(const suite::Results& results, const suite::Summary& 
 
 /// What one number did from one file of results to the other.
 enum class Change { kNone, kBetter, kWorse };
+enum class Measure { kSuccess, kCost, kTime };
 
 /// A line for each family and planner and each of success, cost and time that changed
 /// beyond noise: a sign test on pairs of the same run, p among all tests of the list
 /// below 0.01, and for times a median ratio off by more than 10 %.
 struct Finding {
+  Measure measure = Measure::kSuccess;
   Change change = Change::kNone;
   std::string words;
 };

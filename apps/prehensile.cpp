@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/commands.h"
+#include "apps/version.h"
 #include "io/scene_file.h"
 
 namespace prehensile::apps {
@@ -41,7 +42,7 @@ void refuse_unknown_command(const CLI::App& parent, const char* word) {
 int run(int argc, char** argv) {
   CLI::App app{
       "Plans how a robot re-grips what it holds by pushing it against its surroundings"};
-  app.set_version_flag("--version", PREHENSILE_VERSION);
+  app.set_version_flag("--version", version());
   app.require_subcommand(1);
   app.footer(
       "Example:\n  prehensile plan problems/published/square_01.yaml -o plan.json\n"

@@ -7,6 +7,7 @@
 #include "apps/paper_report.h"
 #include "apps/paper_scenes.h"
 #include "apps/table.h"
+#include "apps/version.h"
 #include "io/plan_file.h"
 #include "io/scene_file.h"
 
@@ -68,7 +69,7 @@ std::string paper_report() {
   lead +=
       "beside what the software finds, and what its equations get wrong. Every number ";
   lead += "on this page was computed when the page was written, by prehensile ";
-  lead += PREHENSILE_VERSION;
+  lead += version();
   lead += "; every exact answer has passed its certificate.</p>\n";
   return page.str("Prehensile pushing, recomputed", lead);
 }

@@ -142,27 +142,34 @@ int points_along(const Move& move) {
   return static_cast<int>(std::clamp(std::ceil(steps) + 1.0, 3.0, 50.0));
 }
 
-/// By the ellipsoid; a can's line of contact need not pass under the finger axis, so it
-/// is judged with the real pads only.
-bool is_held(const SearchModel& search, int contact, const Stop& stop) {
+}  // namespace
+
+// By the ellipsoid; a can's line of contact need not pass under the finger axis, so it is
+// judged with the real pads only.
+bool is_held(const SearchModel& search, int contact, const Stop& stop) noexcept {
   if (can_roll(search.model->scene.object)) return true;
   const Vec2& g_O = search.model->contacts[search.contacts[contact].contact].g_O;
   const Margin& margin = stop.given ? Margin::none() : search.margin;
   return holding_slack(*search.model, stop.p_OF, g_O, margin) > 0.0;
 }
 
-}  // namespace
-
 bool make_leg(const Steering& steering, int contact, const Stop& from, const Stop& to,
               Work& work, Leg& leg) noexcept {
+  if ((to.p_OF - from.p_OF).norm() < kShortestLeg) return false;
+  if (!is_held(steering.search, contact, from) ||
+      !is_held(steering.search, contact, to)) {
+    work.stopped_by.add(PushConstraint::kGravity);
+    return false;
+  }
+  return make_held_leg(steering, contact, from, to, work, leg);
+}
+
+bool make_held_leg(const Steering& steering, int contact, const Stop& from,
+                   const Stop& to, Work& work, Leg& leg) noexcept {
   const SearchModel& search = steering.search;
   const Vec2 d = to.p_OF - from.p_OF;
   const double length = d.norm();
   if (length < kShortestLeg) return false;
-  if (!is_held(search, contact, from) || !is_held(search, contact, to)) {
-    work.stopped_by.add(PushConstraint::kGravity);
-    return false;
-  }
   if (search.confines) {
     const auto broken = search.confines->broken_between(contact, from.p_OF, to.p_OF);
     if (broken) {

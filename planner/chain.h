@@ -54,6 +54,13 @@ inline constexpr double kShortestLeg = 1e-5;
 bool make_leg(const Steering& steering, int contact, const Stop& from, const Stop& to,
               Work& work, Leg& leg) noexcept;
 
+/// Whether the grasp holds gravity at the stop while a contact pushes.
+bool is_held(const SearchModel& search, int contact, const Stop& stop) noexcept;
+
+/// make_leg between stops that are known to be held.
+bool make_held_leg(const Steering& steering, int contact, const Stop& from,
+                   const Stop& to, Work& work, Leg& leg) noexcept;
+
 /// Chooses kappas for a total rotation dtheta [rad] and the cost; false if the chain
 /// cannot produce it, or not with the turn done so far within `window` after each leg.
 /// Legs with several intervals are tried in all combinations up to 256. The shortest

@@ -19,7 +19,9 @@ constexpr double kNoPlan = std::numeric_limits<double>::infinity();
 constexpr Fineness kCoarse = {200, 12};
 constexpr Fineness kFine = {800, 20};  // in search of better plans
 constexpr Fineness kFinest = {3000, 40};
-constexpr Fineness kSparse = {50, 7};  // for rotations of the real pads, which cost most
+constexpr Fineness kMedium = {140, 10};  // the first where plans of two pushes fail
+constexpr Fineness kSparse = {50,
+                              7};  // and for rotations of the real pads, which cost most
 
 class ChainSearch {
  public:
@@ -64,6 +66,15 @@ class ChainSearch {
     try_nodes(steering, kSparse);
     if (!envelope && !found_ && !limits_.reached()) {
       try_labels(steering, kSparse, kNoPlan);
+    }
+    return found_;
+  }
+
+  /// Fewer nodes first: the time goes with the square of their number.
+  std::optional<FoundChain> run_exact_labels() {
+    for (const Fineness& fineness : {kMedium, kCoarse}) {
+      if (found_ || limits_.reached()) break;
+      try_labels(steering_.back(), fineness, kNoPlan);
     }
     return found_;
   }
@@ -165,6 +176,14 @@ std::optional<FoundChain> search_crossings(const SearchModel& search,
                                            Work& work) {
   if (goals.count == 0) return std::nullopt;
   return ChainSearch(search, start, goals, 0.0, limits, work).run_crossings();
+}
+
+std::optional<FoundChain> search_exact_chains(const SearchModel& search,
+                                              const FlatState& start,
+                                              const GoalPlaces& goals,
+                                              const Limits& limits, Work& work) {
+  if (!search.exact_everywhere || goals.count == 0) return std::nullopt;
+  return ChainSearch(search, start, goals, 0.0, limits, work).run_exact_labels();
 }
 
 std::optional<FoundChain> search_long_chains(const SearchModel& search,

@@ -24,6 +24,13 @@ std::optional<FoundChain> search_chains(const SearchModel& search, const FlatSta
                                         const GoalPlaces& goals, double bound,
                                         const Limits& limits, Work& work);
 
+/// Three and more pushes over a lattice, for pads that the closed form knows exactly: the
+/// cheapest over few nodes, or over more of them; none for other pads.
+std::optional<FoundChain> search_exact_chains(const SearchModel& search,
+                                              const FlatState& start,
+                                              const GoalPlaces& goals,
+                                              const Limits& limits, Work& work);
+
 /// Two pushes through a lattice node with rotations that the real pads allow; without an
 /// envelope (cans) also three and more.
 std::optional<FoundChain> search_chains_of_real_pads(const SearchModel& search,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <queue>
 
 #include "planner/confines.h"
@@ -9,18 +10,25 @@
 namespace prehensile {
 namespace {
 
-constexpr double kBucket = 0.3;       // [rad]
 constexpr double kMostRotation = 15;  // [rad] to either side that buckets tell apart
 constexpr int kBuckets = 100;
+constexpr double kBucketsPerRadian = kBuckets / (2.0 * kMostRotation);
 constexpr std::size_t kMostLabels = 200'000;           // without a plan
 constexpr std::size_t kMostLabelsBeyondPlan = 10'000;  // in search of a better one
+constexpr float kFar = std::numeric_limits<float>::infinity();
 constexpr int kMostChecks = 2000;  // of whole chains with the real pad
 
 /// One interval of one leg between two nodes.
 struct Edge {
   int to = -1;
   double lo = 0.0, hi = 0.0;  ///< c dtheta that the leg can produce [m]
-  double travel = 0.0;        ///< least path length in the flat space [m]
+  double cost = 0.0;          ///< least path length in the flat space, over L
+};
+
+/// A leg from a node to a place of the goal.
+struct LastLeg {
+  int place = -1;
+  Leg leg;
 };
 
 struct Label {
@@ -52,12 +60,15 @@ class LabelSearch {
         work_(work),
         contacts_(static_cast<int>(search.contacts.size())) {
     const TurnWindow window = turns_from(search, start.theta);
+    buckets_per_metre_ = kBucketsPerRadian / search.model->c;
     ways_ = {search.model->c * window.low, search.model->c * window.high};
     nodes_.push_back(start.p_OF);
     rows_.resize(nodes_.size() * contacts_);
     row_known_.resize(nodes_.size() * contacts_, 0);
-    if (search.confines) blocked_.assign(nodes_.size() * contacts_, -1);
-    buckets_.assign(nodes_.size() * contacts_ * kBuckets, -1);
+    usable_.assign(nodes_.size() * contacts_, -1);
+    last_legs_.resize(nodes_.size());
+    bucket_labels_.assign(nodes_.size() * contacts_ * kBuckets, -1);
+    bucket_costs_.assign(bucket_labels_.size(), kFar);
     for (const Vec2& node : nodes_) rest_.push_back(least_rest(node));
   }
 
@@ -91,57 +102,87 @@ class LabelSearch {
     return {nodes_[node], node + 1 == static_cast<int>(nodes_.size())};
   }
 
+  /// Lower bound of what a label still costs: the way to the goal, and the rotation that
+  /// is still missing.
+  double least_rest(const Label& label) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < goals_.count; ++i) {
+      const GoalPlace& place = goals_.places[i];
+      const double way = (place.p_OF - nodes_[label.node]).squaredNorm();
+      for (int angle = 0; angle < place.count; ++angle) {
+        const double wanted = search_.model->c * (place.theta[angle] - start_.theta);
+        const double missing = std::max({0.0, wanted - label.hi, label.lo - wanted});
+        least = std::min(least, way + missing * missing);
+      }
+    }
+    return std::sqrt(least) / search_.model->L;
+  }
+
   void push(const Label& label) {
-    queue_.push({label.cost + rest_[label.node], static_cast<int>(labels_.size())});
+    queue_.push({label.cost + least_rest(label), static_cast<int>(labels_.size())});
     labels_.push_back(label);
   }
 
-  int* buckets_of(const Label& label) {
-    return &buckets_[(label.node * contacts_ + label.contact) * kBuckets];
+  /// The first bucket of the node and contact of a label.
+  std::size_t buckets_of(const Label& label) const {
+    return static_cast<std::size_t>(label.node * contacts_ + label.contact) * kBuckets;
   }
 
   std::pair<int, int> bucket_range(const Label& label) const {
     const auto bucket = [&](double c_theta) {
-      const double theta =
-          std::clamp(c_theta / search_.model->c, -kMostRotation, kMostRotation - 1e-9);
-      return static_cast<int>((theta + kMostRotation) / kBucket);
+      const double theta = c_theta / search_.model->c;
+      return static_cast<int>(
+          std::clamp((theta + kMostRotation) * kBucketsPerRadian, 0.0, kBuckets - 1.0));
     };
     return {bucket(label.lo), bucket(label.hi)};
   }
 
-  bool alive(int index) {
+  bool alive(int index) const {
     const Label& label = labels_[index];
     if (label.contact < 0) return true;
-    const int* buckets = buckets_of(label);
+    const int* const labels = &bucket_labels_[buckets_of(label)];
     const auto [low, high] = bucket_range(label);
-    for (int b = low; b <= high; ++b) {
-      if (buckets[b] == index) return true;
+    return std::find(labels + low, labels + high + 1, index) != labels + high + 1;
+  }
+
+  /// The first of the buckets [low, high] that a cost improves, or one more. Most of the
+  /// search goes on here: whole blocks at a time, without branches.
+  int first_improved(const float* costs, int low, int high, float cost) const {
+    constexpr int kBlock = 8;
+    int b = low;
+    for (; b + kBlock <= high + 1; b += kBlock) {
+      int improved = 0;
+      for (int k = 0; k < kBlock; ++k) improved |= costs[b + k] > cost ? 1 : 0;
+      if (improved != 0) break;
     }
-    return false;
+    while (b <= high && costs[b] <= cost) ++b;
+    return b;
   }
 
   /// Keeps the label if it is the cheapest for one of its buckets.
   void offer(const Label& label) {
-    int* buckets = buckets_of(label);
+    const std::size_t first = buckets_of(label);
     const auto [low, high] = bucket_range(label);
-    bool improves = false;
-    for (int b = low; b <= high; ++b) {
-      if (buckets[b] >= 0 && labels_[buckets[b]].cost <= label.cost) continue;
-      buckets[b] = static_cast<int>(labels_.size());
-      improves = true;
+    const auto cost = static_cast<float>(label.cost);
+    int b = first_improved(&bucket_costs_[first], low, high, cost);
+    if (b > high) return;
+    for (; b <= high; ++b) {
+      if (bucket_costs_[first + b] <= cost) continue;
+      bucket_costs_[first + b] = cost;
+      bucket_labels_[first + b] = static_cast<int>(labels_.size());
     }
-    if (improves) push(label);
+    push(label);
   }
 
   const std::vector<Edge>& edges(int node, int contact) {
     const int row = node * contacts_ + contact;
     if (!row_known_[row]) {
       row_known_[row] = 1;
-      if (blocked(node, contact)) return rows_[row];
+      if (!usable(node, contact)) return rows_[row];
       for (int to = 0; to + 1 < static_cast<int>(nodes_.size()); ++to) {
         Leg leg;
-        if (to == node || blocked(to, contact) ||
-            !make_leg(steering_, contact, stop_at(node), stop_at(to), work_, leg)) {
+        if (to == node || !usable(to, contact) ||
+            !make_held_leg(steering_, contact, stop_at(node), stop_at(to), work_, leg)) {
           continue;
         }
         append_edges(leg, to, rows_[row]);
@@ -150,34 +191,59 @@ class LabelSearch {
     return rows_[row];
   }
 
-  bool blocked(int node, int contact) {
-    if (!search_.confines) return false;
-    char& known = blocked_[node * contacts_ + contact];
-    if (known < 0) {
-      known = is_blocked(steering_.search, contact, nodes_[node], work_) ? 1 : 0;
-    }
+  /// Whether a push by the contact may begin and end there.
+  bool usable(int node, int contact) {
+    char& known = usable_[node * contacts_ + contact];
+    if (known < 0) known = is_usable(node, contact) ? 1 : 0;
     return known > 0;
   }
 
-  static void append_edges(const Leg& leg, int to, std::vector<Edge>& edges) {
+  bool is_usable(int node, int contact) {
+    if (!is_held(steering_.search, contact, stop_at(node))) {
+      work_.stopped_by.add(PushConstraint::kGravity);
+      return false;
+    }
+    return !search_.confines ||
+           !is_blocked(steering_.search, contact, nodes_[node], work_);
+  }
+
+  /// All legs from a node into the goal.
+  const std::vector<LastLeg>& last_legs(int node) {
+    std::optional<std::vector<LastLeg>>& legs = last_legs_[node];
+    if (legs) return *legs;
+    legs.emplace();
+    LastLeg last;
+    for (last.place = 0; last.place < goals_.count; ++last.place) {
+      const Stop goal{goals_.places[last.place].p_OF, true};
+      for (int contact = 0; contact < contacts_; ++contact) {
+        if (make_leg(steering_, contact, stop_at(node), goal, work_, last.leg)) {
+          legs->push_back(last);
+        }
+      }
+    }
+    return *legs;
+  }
+
+  void append_edges(const Leg& leg, int to, std::vector<Edge>& edges) const {
     for (int i = 0; i < leg.kappas.count; ++i) {
       const auto [lo, hi] = leg.kappas.intervals[i];
       const double least = std::clamp(0.0, lo, hi);
       edges.push_back({to, leg.length * lo, leg.length * hi,
-                       leg.length * std::sqrt(1.0 + least * least)});
+                       leg.length * std::sqrt(1.0 + least * least) / search_.model->L});
     }
   }
 
-  double cost_after(const Label& label, int contact, double travel) const {
-    return label.cost + (contact != label.contact ? 1.0 : 0.0) +
-           travel / search_.model->L;
+  /// Cost of a label and of a placement, where the contact is another.
+  static double cost_with(const Label& label, int contact) {
+    return label.cost + (contact != label.contact ? 1.0 : 0.0);
   }
 
   void expand(int index) {
     for (int contact = 0; contact < contacts_; ++contact) {
       const Label label = labels_[index];  // a copy: labels_ grows
+      const double placed = cost_with(label, contact);
       for (const Edge& edge : edges(label.node, contact)) {
-        const double cost = cost_after(label, contact, edge.travel);
+        const double cost = placed + edge.cost;
         if (cost + rest_[edge.to] >= to_beat_) continue;
         const double lo = std::max(label.lo + edge.lo, ways_.low);
         const double hi = std::min(label.hi + edge.hi, ways_.high);
@@ -189,26 +255,20 @@ class LabelSearch {
 
   void try_goals(int index) {
     const Label label = labels_[index];
-    for (int place = 0; place < goals_.count; ++place) {
-      for (int contact = 0; contact < contacts_; ++contact) {
-        Leg leg;
-        if (make_leg(steering_, contact, stop_at(label.node),
-                     {goals_.places[place].p_OF, true}, work_, leg)) {
-          try_last_leg(label, index, leg, place);
-        }
-      }
+    for (const LastLeg& last : last_legs(label.node)) {
+      try_last_leg(label, index, last.leg, last.place);
     }
   }
 
   void try_last_leg(const Label& label, int index, const Leg& leg, int place) {
     const GoalPlace& goal = goals_.places[place];
-    std::vector<Edge> ends;
-    append_edges(leg, -1, ends);
+    ends_.clear();
+    append_edges(leg, -1, ends_);
     for (int angle = 0; angle < goal.count; ++angle) {
       const double wanted = search_.model->c * (goal.theta[angle] - start_.theta);
-      for (const Edge& end : ends) {
+      for (const Edge& end : ends_) {
         if (wanted < label.lo + end.lo || wanted > label.hi + end.hi) continue;
-        const double cost = cost_after(label, leg.contact, end.travel);
+        const double cost = cost_with(label, leg.contact) + end.cost;
         if (cost < to_beat_) try_chain(index, leg, place, angle);
       }
     }
@@ -247,14 +307,18 @@ class LabelSearch {
   const Limits& limits_;
   Work& work_;
   int contacts_;
-  TurnWindow ways_;  // limits of c dtheta after every leg [m]
+  double buckets_per_metre_ = 0.0;  // of c dtheta
+  TurnWindow ways_;                 // limits of c dtheta after every leg [m]
   std::vector<double> rest_;
   std::vector<std::vector<Edge>> rows_;
   std::vector<char> row_known_;
-  std::vector<char> blocked_;  // by node and contact; -1: not known yet
-  std::vector<int> buckets_;
+  std::vector<char> usable_;  // by node and contact; -1: not known yet
+  std::vector<std::optional<std::vector<LastLeg>>> last_legs_;  // by node
+  std::vector<int> bucket_labels_;   // by node, contact and bucket of the rotation
+  std::vector<float> bucket_costs_;  // of these labels
   std::vector<Label> labels_;
   std::priority_queue<QueueEntry> queue_;
+  std::vector<Edge> ends_;
   Chain scratch_;
   int checks_ = 0;
   std::optional<FoundChain> best_;

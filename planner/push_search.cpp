@@ -66,16 +66,15 @@ bool plan_with_real_pads(const SearchModel& search, const FlatState& from,
   std::optional<PadEnvelope> envelope;
   if (flat) envelope.emplace(*search.model, search.margin);
   const PadEnvelope* pads = envelope ? &*envelope : nullptr;
-  if (!best) {
-    best = search_chains_of_real_pads(search, from, goals, pads, limits, work);
-  }
+  if (!best) best = search_exact_chains(search, from, goals, limits, work);
+  if (!best) best = search_chains_of_real_pads(search, from, goals, pads, limits, work);
   std::optional<std::vector<Move>> moves;
   if (!best && pads) moves = search_fan(search, *pads, from, goals, limits, work);
   const double to_beat = best    ? best->chain.cost
                          : moves ? cost_of(search, *moves)
                                  : kInfinity;
   if (moves && work.meter) work.meter->found(to_beat);
-  if (!best || limits.improves()) {
+  if (limits.improves() || (!best && !search.exact_everywhere)) {
     const auto found =
         search_long_chains(search, from, goals, pads, to_beat, limits, work);
     if (found) best = found;

@@ -60,9 +60,11 @@ RingTable::RingTable(const Model& model) {
 
 double RingTable::crossing(const Row& row, int low, int high) const noexcept {
   const bool rises = at(row, high) > at(row, low);
-  while (high - low > 1) {
+  while (high - low > 1) {  // without branches on what no processor foresees
     const int middle = (low + high) / 2;
-    ((at(row, middle) >= 0.0) == rises ? high : low) = middle;
+    const bool before = (at(row, middle) >= 0.0) == rises;
+    high = before ? middle : high;
+    low = before ? low : middle;
   }
   const double from = at(row, low);
   const double to = at(row, high);
@@ -70,35 +72,48 @@ double RingTable::crossing(const Row& row, int low, int high) const noexcept {
   return low + (from == to ? 0.5 : std::clamp(from / (from - to), 0.0, 1.0));
 }
 
+int RingTable::extreme_of(const Row& row, double side) const noexcept {
+  if (row.moment == 0.0) return kHalf;  // `along` is greatest without a turn
+  int low = 0;
+  int high = kEntries - 1;
+  while (low < high) {
+    const int middle = (low + high) / 2;
+    const bool improves = side * (at(row, middle + 1) - at(row, middle)) > 0.0;
+    low = improves ? middle + 1 : low;
+    high = improves ? high : middle;
+  }
+  return low;
+}
+
 void RingTable::cut(const Row& wanted, KappaSet& entries) const noexcept {
   Row row = wanted;
   row.constant -=
       kBetweenEntries * (std::abs(row.moment) + std::min(2.0, std::abs(row.along)));
-  // The row has one extreme: a greatest value if `along` is positive, else a least one.
-  const double side = row.along >= 0.0 ? 1.0 : -1.0;
-  int low = 0;
-  int high = kEntries - 1;
-  while (high - low > 0) {
-    const int middle = (low + high) / 2;
-    (side * (at(row, middle + 1) - at(row, middle)) > 0.0 ? low : high) =
-        middle + (side * (at(row, middle + 1) - at(row, middle)) > 0.0 ? 1 : 0);
-  }
   const int last = kEntries - 1;
-  const double extreme = at(row, low);
   const double begin = at(row, 0);
   const double end = at(row, last);
-  if (side > 0.0) {
-    if (extreme < 0.0) {
-      entries.count = 0;
-      return;
-    }
-    keep_between(begin >= 0.0 ? 0.0 : crossing(row, 0, low),
-                 end >= 0.0 ? last : crossing(row, low, last), entries);
+  // The row has one extreme: a greatest value if `along` is positive, else a least one.
+  // Between ends of different sign it crosses zero once, wherever that lies.
+  if (begin >= 0.0 && end < 0.0) {
+    return keep_between(0.0, crossing(row, 0, last), entries);
+  }
+  if (begin < 0.0 && end >= 0.0) {
+    return keep_between(crossing(row, 0, last), last, entries);
+  }
+  const bool holds_at_ends = begin >= 0.0;
+  if ((row.along >= 0.0) == holds_at_ends) {
+    if (!holds_at_ends) entries.count = 0;
     return;
   }
-  if (extreme >= 0.0) return;
-  take_out(begin >= 0.0 ? crossing(row, 0, low) : -1.0,
-           end >= 0.0 ? crossing(row, low, last) : last + 1.0, entries);
+  const int extreme = extreme_of(row, row.along >= 0.0 ? 1.0 : -1.0);
+  const bool holds = at(row, extreme) >= 0.0;
+  if (holds == holds_at_ends) {
+    if (!holds) entries.count = 0;
+  } else if (holds) {
+    keep_between(crossing(row, 0, extreme), crossing(row, extreme, last), entries);
+  } else {
+    take_out(crossing(row, 0, extreme), crossing(row, extreme, last), entries);
+  }
 }
 
 KappaSet RingTable::kappas(const StickContact& contact, const Vec2& p_OF,

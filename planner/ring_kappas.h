@@ -35,6 +35,8 @@ class RingTable {
   /// The entry between `low` and `high`, as a fraction, where a row that is monotone
   /// there changes its sign.
   double crossing(const Row& row, int low, int high) const noexcept;
+  /// The entry where a row is greatest (`side` 1) or least (-1).
+  int extreme_of(const Row& row, double side) const noexcept;
   void cut(const Row& row, KappaSet& angles) const noexcept;
 
   std::array<double, kEntries> along_;   // of F, by angle from -pi / 2 to pi / 2

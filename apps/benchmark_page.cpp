@@ -208,8 +208,8 @@ void judge(const std::string& where, Measure measure, double p, int tests, int b
   if (!is_large || suite::for_many(p, tests) >= kNoise) return;
   const bool is_better = better > worse;
   out.push_back({measure, is_better ? Change::kBetter : Change::kWorse,
-                 where + ": " + name(measure) + (is_better ? " better" : " worse") + " (" +
-                     how_much +
+                 where + ": " + name(measure) + (is_better ? " better" : " worse") +
+                     " (" + how_much +
                      text("; %d pairs for, %d against, p = %.1e among %d "
                           "tests)",
                           std::max(better, worse), std::min(better, worse),
@@ -258,8 +258,8 @@ std::vector<Finding> findings(const Results& before,
     judge(where, Measure::kCost, c.cost_p, tests, c.cheaper_b, c.cheaper_a, true,
           text("median ratio %.4g", c.cost_ratio), out);
     const double factor = std::max(c.time_ratio, 1.0 / c.time_ratio);
-    judge(where, Measure::kTime, c.time_p, tests, c.faster_b, c.faster_a, factor > kTimeNoise,
-          text("median ratio %.3g", c.time_ratio), out);
+    judge(where, Measure::kTime, c.time_p, tests, c.faster_b, c.faster_a,
+          factor > kTimeNoise, text("median ratio %.3g", c.time_ratio), out);
   }
   return out;
 }

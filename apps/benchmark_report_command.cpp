@@ -94,8 +94,8 @@ int compare(const Options& options) {
   }
   if (!options.json) say_page(options);
   if (has_studies && !options.json) std::puts("studies are not compared");
-  // The load of a machine at two moments differs beyond the noise of runs: times are said,
-  // but decide nothing.
+  // The load of a machine at two moments differs beyond the noise of runs: times are
+  // said, but decide nothing.
   const bool is_worse = std::any_of(found.begin(), found.end(), [](const Finding& f) {
     return f.change == Change::kWorse && f.measure != Measure::kTime;
   });

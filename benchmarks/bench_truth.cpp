@@ -188,7 +188,9 @@ void run_lines(const TruthOptions& options, std::FILE* csv) {
       quantile(pose.angle_deg, 0.5));
 }
 
-void run(const TruthOptions& options, std::FILE* csv) {
+/// How many of the sets asked for are there.
+int run(const TruthOptions& options, std::FILE* csv) {
+  int sets = 0;
   struct Part {
     const char* name;
     const char* folder;
@@ -209,7 +211,9 @@ void run(const TruthOptions& options, std::FILE* csv) {
       continue;
     }
     part.run(options, csv);
+    ++sets;
   }
+  return sets;
 }
 
 int usage(std::FILE* out) {
@@ -263,7 +267,11 @@ int main(int argc, char** argv) {
     std::fprintf(csv->get(), "set,recording,push,model,distance_mm,angle_deg\n");
   }
   try {
-    run(options, csv ? csv->get() : nullptr);
+    if (run(options, csv ? csv->get() : nullptr) == 0) {
+      std::fprintf(stderr, "%s: holds none of the sets asked for\n",
+                   options.data.c_str());
+      return 2;
+    }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 2;

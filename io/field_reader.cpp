@@ -330,6 +330,15 @@ void FieldReader::place(const char* key, Vec2& into, double& z, const Bounds& bo
   z = numbers[2];
 }
 
+void FieldReader::numbers(const char* key, std::map<std::string, double>& into,
+                          const char*) {
+  const Value* value = take(key, kOptional, {});
+  if (!value || !is_map(*value, child(key), faults_)) return;
+  for (const Entry& entry : value->entries) {
+    read_number(entry.value, join(child(key), entry.key), {}, into[entry.key]);
+  }
+}
+
 void FieldReader::names(const char* key, std::vector<std::string>& into, Length length,
                         const char*) {
   const Value* value = take(key, kOptional, {});

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -42,6 +43,7 @@ class FieldReader {
   void one_or_two(const char* key, std::array<double, 2>& into, const Bounds& bounds,
                   const char*);
   void names(const char* key, std::vector<std::string>& into, Length length, const char*);
+  void numbers(const char* key, std::map<std::string, double>& into, const char*);
   void points(const char* key, std::vector<Vec2>& into, Length length,
               const Bounds& bounds, const char*);
 

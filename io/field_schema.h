@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -83,6 +84,10 @@ class FieldSchema {
   void names(const char* key, const std::vector<std::string>&, Length length,
              const char* doc) {
     add(key, list_schema({{"type", "string"}}, length), kOptional, doc);
+  }
+  void numbers(const char* key, const std::map<std::string, double>&, const char* doc) {
+    add(key, {{"type", "object"}, {"additionalProperties", {{"type", "number"}}}},
+        kOptional, doc);
   }
   void points(const char* key, const std::vector<Vec2>&, Length length,
               const Bounds& bounds, const char* doc) {

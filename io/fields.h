@@ -20,6 +20,7 @@
 ///   word(key, value, words)              one of a closed set
 ///   word_if_not(initial, key, value, words)  likewise, not written if it is the initial
 ///   names(key, strings)                  a list of words
+///   numbers(key, map)                    a map from words to numbers
 ///   points(key, vertices)                a list of pairs of numbers
 ///   group(key, value, visit)             a map; also optional<T>: absent if unset
 ///   group_if_set(key, value, visit)      a map, written only if not as the struct starts

@@ -75,6 +75,7 @@ std::string settings_of(const PlannerEntry& entry) {
   add("until", entry.until == SearchUntil::kBudget ? "budget" : "first_plan");
   add("polish", entry.polish ? "nlopt" : "none");
   add("seeds", std::to_string(entry.seeds));
+  for (const auto& [name, value] : entry.settings) add(name.c_str(), with(value));
   return text;
 }
 

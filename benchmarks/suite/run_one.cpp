@@ -155,6 +155,7 @@ std::vector<std::string> names(const PlannerTable& planners) {
 PlanOptions plan_options(const PlannerEntry& entry, const Model& model, int seed) {
   PlanOptions options;
   options.planner = entry.planner;
+  options.settings = entry.settings;
   options.seed = static_cast<std::uint64_t>(seed);
   options.budget = static_cast<std::int64_t>(entry.budget);
   options.time_limit = entry.time_limit;

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "planner/planner.h"
 #include "problems/confined_regrasps.h"
 #include "problems/published_regrasps.h"
 #include "problems/random_fixtures.h"
@@ -96,6 +97,7 @@ struct PlannerEntry {
   SearchUntil until = SearchUntil::kFirstPlan;
   bool polish = true;
   int seeds = 1;  ///< runs with seed 1..seeds; planners that draw nothing need one
+  PlannerSettings settings;  ///< options of the planner (planner/catalogue.h)
 
   const std::string& label() const { return name.empty() ? planner : name; }
 };

@@ -188,6 +188,7 @@ void visit_planner(Fields& f, PlannerEntry& entry) {
   f.word("polish", entry.polish, kPolishWords, kOptional, "Shorten plans with NLopt.");
   f.whole("seeds", entry.seeds, 1, 10'000, kOptional,
           "Runs with seed 1 to this; a planner that draws nothing needs one.");
+  f.numbers("options", entry.settings, "Of the planner, as `plan --list-planners` says.");
 }
 
 template <typename Fields>

@@ -9,6 +9,7 @@
 #include "io/document.h"
 #include "io/field_reader.h"
 #include "io/field_schema.h"
+#include "planner/catalogue.h"
 
 namespace prehensile::suite {
 namespace {
@@ -121,6 +122,20 @@ void judge_study(const Study& study, const std::string& path, Judge& judge) {
                 "a folder in the suite's folder or below");
 }
 
+void judge_settings(const PlannerEntry& entry, const std::string& path, Judge& judge) {
+  if (entry.settings.empty()) return;
+  if (!find_planner(entry.planner)) {
+    judge.require(false, path,
+                  "none: nothing is known of the options of " + entry.planner);
+    return;
+  }
+  for (const auto& [name, value] : entry.settings) {
+    const std::string fault = planner_fault(entry.planner, {{name, value}});
+    judge.require(fault.empty(), path + '.' + name,
+                  "an option of the planner (" + fault + ")");
+  }
+}
+
 void judge_suite(const Suite& suite, const std::vector<std::string>& planners,
                  Judge& judge) {
   judge.word(suite.name, "name");
@@ -150,6 +165,7 @@ void judge_suite(const Suite& suite, const std::vector<std::string>& planners,
     judge.require(
         std::find(planners.begin(), planners.end(), entry.planner) != planners.end(),
         path + ".planner", "one of " + listed(planners));
+    judge_settings(entry, path + ".options", judge);
     judge.require(entry.budget == std::floor(entry.budget), path + ".budget",
                   "a whole number");
     judge.require(!entry.name.empty() || is_word(entry.planner), path + ".name",

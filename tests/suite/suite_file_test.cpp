@@ -66,7 +66,7 @@ TEST(SuiteFile, ReadsEveryField) {
           "  - {name: g, meshes: {files: [a.obj], unit: mm, goals: pushes}}\n"
           "planners:\n"
           "  - {name: p, planner: push, budget: 1e5, time: 0.5, margin: 0,\n"
-          "     until: budget, polish: none, seeds: 4}\n"
+          "     until: budget, polish: none, seeds: 4, options: {fallback_share: 0.2}}\n"
           "limits: {cpu_time: 2, wall_time: 3, memory_MB: 400}\n"
           "repetitions: 5\n"
           "quick: 6\n",
@@ -88,6 +88,9 @@ TEST(SuiteFile, ReadsEveryField) {
   EXPECT_EQ(entry.until, SearchUntil::kBudget);
   EXPECT_FALSE(entry.polish);
   EXPECT_EQ(entry.seeds, 4);
+  EXPECT_EQ(entry.settings, (PlannerSettings{{"fallback_share", 0.2}}));
+  const Model model = prepare(published_square(0));
+  EXPECT_EQ(plan_options(entry, model, 4).settings, entry.settings);
   EXPECT_EQ(suite.limits.memory_MB, 400.0);
   EXPECT_EQ(suite.repetitions, 5);
   EXPECT_EQ(suite.quick, 6);
@@ -121,6 +124,15 @@ TEST(SuiteFile, SaysWhatIsWrongAndWhere) {
        "s.yaml:5: planners.1.name: expected a name that no other entry has"},
       {"version: 1\nname: s\nplanners:\n  - {planner: push, budget: 1.5}\n" + kFamily,
        "s.yaml:4: planners.0.budget: 1.5: expected a whole number"},
+      {"version: 1\nname: s\nplanners:\n  - {planner: push, options: {fallback_share: "
+       "2}}\n" +
+           kFamily,
+       "s.yaml:4: planners.0.options.fallback_share: 2: expected an option of the "
+       "planner (option fallback_share of planner push is 2; expected a number from 0 to "
+       "0.9)"},
+      {"version: 1\nname: s\nplanners:\n  - {planner: push, options: {range: .nan}}\n" +
+           kFamily,
+       "s.yaml:4: planners.0.options.range: .nan: expected a number"},
       {with_source("fixtures: {object: box, size: [0.1, 0.05]}"),
        "s.yaml:6: families.0.fixtures.size: expected the lower end first"},
       {with_source("fixtures: {object: box, pusher_count: [1.5, 2]}"),

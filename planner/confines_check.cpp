@@ -151,7 +151,7 @@ class CollisionCheck {
     return {pose.x + by.x(), pose.y + by.y(), pose.theta};
   }
 
-  /// At least how far any point of the hand moves during a push [m].
+  /// No point of the hand moves farther than this during a push [m].
   double way(const PlannedPush& planned) const {
     if (const auto* roll = std::get_if<Roll>(&planned.push)) {
       return std::abs(roll->travel);

@@ -34,6 +34,15 @@ std::string force(double value) {
   return text("%.4f", value);
 }
 
+/// With which grip forces the pusher sticks, where two numbers do not say it.
+const char* sticks(const GripSample& sample) {
+  if (std::isnan(sample.stick_low))
+    return "unknown: a point, or no motion of the flush contact";
+  if (!(sample.stick_low <= sample.stick_high)) return "never";
+  return std::isfinite(sample.stick_high) ? "from stick_low to stick_high"
+                                          : "from stick_low on";
+}
+
 nlohmann::ordered_json end_json(const GripEnd& end) {
   nlohmann::ordered_json out = {{"force", number(end.force)},
                                 {"open", end.is_open},
@@ -87,6 +96,7 @@ nlohmann::ordered_json grip_json(const GripRange& range) {
   for (const GripSample& sample : range.profile) {
     out["profile"].push_back({{"done", number(sample.s)},
                               {"hold", number(sample.hold)},
+                              {"sticks", sticks(sample)},
                               {"stick_low", number(sample.stick_low)},
                               {"stick_high", number(sample.stick_high)}});
   }

@@ -20,7 +20,7 @@ std::string contacts_of(const Model& model) {
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     known += (i == 0 ? "" : ", ") + contact_text(model, static_cast<int>(i));
   }
-  return known.empty() ? "none" : known;
+  return known;
 }
 
 }  // namespace
@@ -67,6 +67,9 @@ Solver solver_called(const std::string& word) {
 }
 
 int chosen_contact(const Model& model, const PushOptions& options) {
+  if (model.contacts.empty()) {
+    throw BadInput("pushers: none touches a face of the object: expected at least one");
+  }
   std::string pusher = options.pusher;
   if (pusher.empty() && !model.contacts.empty()) {
     pusher = model.scene.pushers[model.contacts.front().pusher].name;

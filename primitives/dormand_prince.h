@@ -1,6 +1,7 @@
 /// One step of the Dormand-Prince pair of order 5(4) for two coordinates.
 ///
-/// Source: Dormand and Prince, J. Comput. Appl. Math. 6 (1980) 19-26.
+/// Sources: Dormand and Prince, J. Comput. Appl. Math. 6 (1980) 19-26; the state in the
+/// middle: Shampine, Math. Comp. 46 (1986) 135-150.
 #pragma once
 
 #include <limits>
@@ -40,6 +41,11 @@ double dormand_prince(const Rate& rate, BaseStep& step) {
 
   step.y_end = y + h * slope7;
   step.rate_end = k7;
+  step.y_middle =
+      y + 0.5 * h *
+              (6025192743.0 / 30085553152.0 * k1 + 51252292925.0 / 65400821598.0 * k3 -
+               2691868925.0 / 45128329728.0 * k4 + 187940372067.0 / 1594534317056.0 * k5 -
+               1776094331.0 / 19743644256.0 * k6 + 11237099.0 / 235043384.0 * k7);
   step.error = h * (71.0 / 57600 * k1 - 71.0 / 16695 * k3 + 71.0 / 1920 * k4 -
                     17253.0 / 339200 * k5 + 22.0 / 525 * k6 - 1.0 / 40 * k7);
   step.probe = h * (slope7 - slope6);

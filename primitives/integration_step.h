@@ -1,12 +1,13 @@
 /// Steps of an integrator for two coordinates. A `BaseStep` is one step of a method
-/// (dormand_prince.h, rosenbrock.h); a `DoubledStep` covers a stretch by two base steps
-/// of half the length. Their error is told by what they differ by from one base step of
-/// the whole length (`doubled`, for stiff methods), or, for less work, by the rates at
-/// two places of the polynomial through them (`halved` and `judge_halves`).
+/// (dormand_prince.h, rosenbrock.h); a `DenseStep` is what is kept of it, with a state at
+/// every place inside. The error of a single base step is told by the rates at two places
+/// of it (`single` and `judge`); that of a stiff one by what two steps of half the length
+/// differ by from it (`doubled`).
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "scene/frames.h"
@@ -24,9 +25,20 @@ struct BaseStep {
   Vec2 probe = Vec2::Zero();  ///< a small change of y_end and what it does to the rate
   Vec2 probe_rate = Vec2::Zero();
   bool ends = false;  ///< set before the last call of the rate, the one at the end
+  Vec2 y_middle = Vec2::Zero();  ///< of order 4; by dormand_prince only
+
+  /// State at the share x in [0, 1] of an explicit step, of order 4: the quartic through
+  /// states and rates at the ends and the state in the middle.
+  Vec2 at(double x) const {
+    const double z = 1.0 - x;
+    const double rise = x * x * (3.0 - 2.0 * x);
+    const Vec2 bulge = y_middle - 0.5 * (y + y_end) - 0.125 * h * (rate - rate_end);
+    return (1.0 - rise) * y + rise * y_end + x * z * h * (z * rate - x * rate_end) +
+           16.0 * x * x * z * z * bulge;
+  }
 };
 
-struct DoubledStep {
+struct DenseStep {
   double s = 0.0;         ///< where it starts
   double h = 0.0;         ///< its length
   Vec2 y = Vec2::Zero();  ///< state at start, middle and end
@@ -36,15 +48,15 @@ struct DoubledStep {
   Vec2 rate_middle = Vec2::Zero();
   Vec2 rate_end = Vec2::Zero();
   Vec2 error = Vec2::Zero();     ///< of y_end, made in this step
+  bool is_doubled = false;       ///< by `doubled`; then
   bool gave_up = false;          ///< only the embedded error of the whole step is known
-  Vec2 embedded = Vec2::Zero();  ///< size of the halves' own errors, of the lower order
-  Vec2 defect = Vec2::Zero();    ///< by how much state and rates inside disagree
-  bool is_smooth = true;      ///< of `doubled`: errors fall with the method's own order
-  Vec2 probe = Vec2::Zero();  ///< a change of state and what it does to the rate
+  bool is_smooth = true;         ///< errors fall with the method's own order
+  Vec2 embedded = Vec2::Zero();  ///< else: the error of the lower order
+  Vec2 probe = Vec2::Zero();     ///< a change of state and what it does to the rate
   Vec2 probe_rate = Vec2::Zero();
 
-  /// State at the share x in [0, 1] of the step: of order 5, by the states and rates at
-  /// start, middle and end.
+  /// State at the share x in [0, 1] of the step, by the states and rates at start, middle
+  /// and end: of order 5 (doubled) or 4.
   Vec2 at(double x) const {
     const double u = 2.0 * x - 1.0;
     const double k = 0.5 * h;
@@ -74,29 +86,52 @@ struct DoubledStep {
                       last * (-3.0 * y_end + k * rate_end);
     return by_u / k;
   }
+
+  /// Where the rate of the polynomial tells best what its state lacks at x.
+  double telling(double x) const {
+    return !is_doubled ? 0.5 : x < 0.5 ? kSteepest : 1.0 - kSteepest;
+  }
+
+  /// What the state lacks at x over the step's length times what the rate lacks at
+  /// `telling(x)`. The rate lacks a constant times its distances from the nodes where it
+  /// is right: start, quadrature nodes and end; of a doubled step, whose state is right
+  /// at start, middle and end as well, the derivative of (x (x - 1/2) (x - 1))^2.
+  double lack_of_state(double x) const {
+    const double w = x * (1.0 - x);
+    if (!is_doubled) return 8.0 * w * w * std::abs(1.0 - 2.0 * x);
+    constexpr double kAway = 1.0 - 2.0 * kSteepest;
+    constexpr double kW = kSteepest * (1.0 - kSteepest);
+    return w * w * (1.0 - 2.0 * x) * (1.0 - 2.0 * x) /
+           (2.0 * kW * kAway * (1.0 - 6.0 * kW));
+  }
+
+ private:
+  static constexpr double kSteepest = 0.09;
 };
 
-/// The second half of `step` after its first, and what both say of the whole; a base step
-/// is as `doubled` describes it, and so is what this returns.
+/// The base step over the whole of `step`.
+inline BaseStep base_of(const DenseStep& step) {
+  BaseStep base;
+  base.s = step.s;
+  base.h = step.h;
+  base.y = step.y;
+  base.rate = step.rate;
+  return base;
+}
+
+/// Takes the base step at the end of `step`, whose last rate is `end_rate`.
 template <class Method, class Rate, class EndRate>
-double second_half(const Method& method, const Rate& rate, const EndRate& end_rate,
-                   const BaseStep& first, BaseStep& last, DoubledStep& step) {
-  constexpr double kDone = std::numeric_limits<double>::infinity();
-  last.s = step.s + first.h;
-  last.h = step.h - first.h;
-  last.y = first.y_end;
-  last.rate = first.rate_end;
+double end_with(const Method& method, const Rate& rate, const EndRate& end_rate,
+                BaseStep& last, DenseStep& step) {
   const auto rate_to_end = [&](double s, const Vec2& y, Vec2& out) {
     return last.ends ? end_rate(s, y, out) : rate(s, y, out);
   };
-  if (const double failed = method(rate_to_end, last); failed != kDone) return failed;
-  step.y_middle = first.y_end;
-  step.rate_middle = first.rate_end;
+  const double failed = method(rate_to_end, last);
   step.y_end = last.y_end;
   step.rate_end = last.rate_end;
   step.probe = last.probe;
   step.probe_rate = last.probe_rate;
-  return kDone;
+  return failed;
 }
 
 /// Fills `step` from step.s, step.h, step.y and step.rate. `method(rate, base)` fills a
@@ -111,15 +146,12 @@ double second_half(const Method& method, const Rate& rate, const EndRate& end_ra
 /// Which of the two it is shows in the embedded errors of the base steps.
 template <class Method, class Rate, class EndRate, class Hopeless>
 double doubled(const Method& method, const Rate& rate, const EndRate& end_rate,
-               const Hopeless& is_hopeless, int order, DoubledStep& step) {
+               const Hopeless& is_hopeless, int order, DenseStep& step) {
   constexpr double kDone = std::numeric_limits<double>::infinity();
   constexpr double kOfEmbedded = 0.1;  // a step's own error is seldom less
-  BaseStep whole;
-  whole.s = step.s;
-  whole.h = step.h;
-  whole.y = step.y;
-  whole.rate = step.rate;
+  BaseStep whole = base_of(step);
   if (const double failed = method(rate, whole); failed != kDone) return failed;
+  step.is_doubled = true;
   step.y_end = whole.y_end;
   step.error = whole.error;
   step.gave_up = is_hopeless(whole.error);
@@ -129,10 +161,16 @@ double doubled(const Method& method, const Rate& rate, const EndRate& end_rate,
   first.ends = false;
   if (const double failed = method(rate, first); failed != kDone) return failed;
   BaseStep last;
-  if (const double failed = second_half(method, rate, end_rate, first, last, step);
+  last.s = step.s + first.h;
+  last.h = step.h - first.h;
+  last.y = first.y_end;
+  last.rate = first.rate_end;
+  if (const double failed = end_with(method, rate, end_rate, last, step);
       failed != kDone) {
     return failed;
   }
+  step.y_middle = first.y_end;
+  step.rate_middle = first.rate_end;
   // Smooth: the embedded errors of the halves together are 2^(order - 2) times smaller.
   const double embedded = first.error.norm() + last.error.norm();
   const Vec2 difference = whole.y_end - step.y_end;
@@ -145,45 +183,37 @@ double doubled(const Method& method, const Rate& rate, const EndRate& end_rate,
   return kDone;
 }
 
-/// Where a step that is taken in halves alone is looked at: with its ends and its middle
-/// these are the nodes of Lobatto's quadrature with five points.
-inline constexpr std::array<double, 2> kQuadratureNodes{0.17267316464601143,
-                                                        0.82732683535398857};
-
-/// Fills `step` as `doubled` does, but takes the two halves only; their error is left to
-/// `judge_halves`. `is_hopeless(error)` is asked about the embedded error of the first.
-template <class Method, class Rate, class EndRate, class Hopeless>
-double halved(const Method& method, const Rate& rate, const EndRate& end_rate,
-              const Hopeless& is_hopeless, DoubledStep& step) {
-  constexpr double kDone = std::numeric_limits<double>::infinity();
-  BaseStep first;
-  first.s = step.s;
-  first.h = 0.5 * step.h;
-  first.y = step.y;
-  first.rate = step.rate;
-  if (const double failed = method(rate, first); failed != kDone) return failed;
-  step.error = first.error;
-  step.gave_up = is_hopeless(first.error);
-  if (step.gave_up) return kDone;
-  BaseStep last;
-  if (const double failed = second_half(method, rate, end_rate, first, last, step);
-      failed != kDone) {
-    return failed;
-  }
-  step.embedded = first.error.cwiseAbs() + last.error.cwiseAbs();
-  return kDone;
+/// Fills `step` by a single base step, as `doubled` does by three, but for its error and
+/// its middle, which are left to `judge`.
+template <class Method, class Rate, class EndRate>
+double single(const Method& method, const Rate& rate, const EndRate& end_rate,
+              BaseStep& base, DenseStep& step) {
+  base = base_of(step);
+  step.is_doubled = false;
+  step.gave_up = false;
+  const double failed = end_with(method, rate, end_rate, base, step);
+  step.embedded = base.error;
+  return failed;
 }
 
-/// The error of `halved`, from the rates at `kQuadratureNodes` of its polynomial: what
-/// the end lacks of the integral of these rates, which is one order closer. What rates
-/// and polynomial differ by in each node shows a kink, whose errors may cancel in the
-/// end.
-inline void judge_halves(const std::array<Vec2, 2>& rates, DoubledStep& step) {
-  constexpr double kWeight = 49.0 / 180.0;
-  const std::array<Vec2, 2> lack{rates[0] - step.rate_at(kQuadratureNodes[0]),
-                                 rates[1] - step.rate_at(kQuadratureNodes[1])};
-  step.error = -kWeight * step.h * (lack[0] + lack[1]);
-  step.defect = kWeight * step.h * (lack[0].cwiseAbs() + lack[1].cwiseAbs());
+/// Where a single step is looked at: with its ends these are the nodes of Lobatto's
+/// quadrature with four points.
+inline constexpr std::array<double, 2> kQuadratureNodes{0.27639320225002103,
+                                                        0.72360679774997897};
+
+/// The error of `single`, from the rates at `kQuadratureNodes` of its base step: what the
+/// end lacks of the integral of these rates and those at the ends, which is as far from
+/// the truth as the end, in another way. Inside, the state is the integral of the cubic
+/// through the four rates.
+inline void judge(const std::array<Vec2, 2>& rates, DenseStep& step) {
+  constexpr double kRootOf5 = 2.2360679774997897;
+  const Vec2 ends = step.rate + step.rate_end;
+  const Vec2 nodes = rates[0] + rates[1];
+  step.error = step.y_end - step.y - step.h / 12.0 * (ends + 5.0 * nodes);
+  step.rate_middle = 0.125 * (5.0 * nodes - ends);
+  const Vec2 bend =
+      3.0 * (step.rate - step.rate_end) + 5.0 * kRootOf5 * (rates[0] - rates[1]);
+  step.y_middle = 0.5 * (step.y + step.y_end) + step.h / 64.0 * bend;
 }
 
 }  // namespace prehensile

@@ -17,9 +17,6 @@ constexpr double kRoundOff = 1e-12;
 /// Share of a step to which limits are met: as closely as numbers allow.
 constexpr double kResolution = 1e-11;
 
-/// Where in a step the defect of its polynomial changes fastest.
-constexpr double kSteepest = 0.09;
-
 /// A step may be continued beyond its end up to this many times its length, where its
 /// error is larger by this factor.
 constexpr double kContinued = 2.5;
@@ -49,23 +46,19 @@ Crossing PushRun<Instant>::first_crossing() {
     if (at < first.at) first = {at, static_cast<Limit>(i)};
   }
   const double noise = instant_.noise();
-  double high = 1.0;
-  double margin_at_high = mode_margin();
-  if (middle_margin_ < -noise) {
-    high = 0.5;
-    margin_at_high = middle_margin_;
-  } else if (dip_at_ < 1.0) {
-    high = dip_at_;
-    margin_at_high = dip_margin_;
+  Look low{0.0, margin_};
+  Look high{1.0, mode_margin()};
+  if (dip_at_ < 1.0) high = {dip_at_, dip_margin_};
+  for (const Look& look : looks_) {
+    if (look.margin == kNever || look.at >= high.at) continue;
+    if (look.margin < -noise) {
+      high = look;
+    } else if (look.margin > 0.0) {
+      low = look;
+    }
   }
-  if (margin_at_high >= -noise) return first;
-  double low = 0.0;
-  double margin_at_low = margin_;
-  if (high == 1.0 && middle_margin_ > 0.0 && !rides()) {
-    low = 0.5;
-    margin_at_low = middle_margin_;
-  }
-  if (margin_at_low <= 0.0) return {0.0, {}};
+  if (high.margin >= -noise) return first;
+  if (low.margin <= 0.0) return {0.0, {}};
   const auto margin = [&](double x) {
     const double s = s_ + x * step_.h;
     Vec2 rate;
@@ -77,31 +70,25 @@ Crossing PushRun<Instant>::first_crossing() {
   instant_.set_aside();
   const double resolution = std::max(kResolution, control_.location() / step_.h);
   // Beyond the root, where the next mode holds already.
-  const double at = std::min(
-      high, falling_root(margin, low, margin_at_low, high, margin_at_high, resolution) +
-                0.5 * resolution);
+  const double root =
+      falling_root(margin, low.at, low.margin, high.at, high.margin, resolution);
+  const double at = std::min(high.at, root + 0.5 * resolution);
   instant_.bring_back();
   if (at < first.at) first = {at, {}};
   return first;
 }
 
-/// Whether the state inside the step is as good as steps have to be. What the polynomial
-/// lacks is a constant times the square of its distance from the nodes, x (x - 1/2)
-/// (x - 1); the constant is read off the rate where the slope of that is greatest.
+/// Whether the state inside the step is as good as steps have to be.
 template <class Instant>
 bool PushRun<Instant>::is_close(double at) {
-  const double x = at < 0.5 ? kSteepest : 1.0 - kSteepest;
-  const auto node = [](double z) { return z * (z - 0.5) * (z - 1.0); };
-  const double slope =
-      2.0 * std::abs(node(x)) * (0.5 - 3.0 * kSteepest * (1.0 - kSteepest));
+  const double x = step_.telling(at);
   Vec2 rate;
   instant_.set_aside();
   const bool found = rate_in_mode(s_ + x * step_.h, step_.at(x), rate);
   instant_.bring_back();
   inside_error_ = 0.0;
   if (!found) return true;
-  inside_error_ =
-      step_.h * length_of(rate - step_.rate_at(x)) * node(at) * node(at) / slope;
+  inside_error_ = step_.h * length_of(rate - step_.rate_at(x)) * step_.lack_of_state(at);
   return landed_ || inside_error_ <= control_.allowed(step_.h);
 }
 

@@ -81,7 +81,8 @@ bool PushRun<Instant>::ride() {
   step_.y_middle = q_;
   step_.rate_middle = Vec2::Zero();
   step_error_ = 0.0;
-  middle_margin_ = dip_at_ = kNever;
+  looks_ = {};
+  dip_at_ = kNever;
   const double end = s_ + step_.h;
   const InMode found = instant_.check_ride(seat_, end);
   if (found == InMode::kMoves && mode_margin() < -instant_.noise()) return true;
@@ -207,6 +208,7 @@ void PushRun<Instant>::take_regime(Regime regime) {
     }
     return;
   }
+  control_.renew();
   record_.add(regime == Regime::kStick ? EventKind::kStick : EventKind::kSlip, s_);
 }
 
@@ -216,6 +218,7 @@ void PushRun<Instant>::take_seat(const Seat& seat, EventKind event) {
   q_ = Vec2::Zero();
   record_.add(event, s_);
   if (!solve_here()) return;
+  control_.renew();
   regime_ = regime_before_ = instant_.regime();
   regime_since_ = -1.0;
   margin_ = mode_margin();

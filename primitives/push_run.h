@@ -4,11 +4,12 @@
 /// its end: rates are smooth there, so steps are long, and where the mode ends is a root
 /// of its margin along the step. While a line sticks flush to the face the object rides:
 /// its motion is known, and bounds on the pusher's forces say how far nothing can happen
-/// (ride_bound.h). Otherwise steps are taken in halves (integration_step.h), by an
-/// explicit method or a stiff one. Internal to the primitives layer.
+/// (ride_bound.h). Otherwise steps are integrated (integration_step.h), by an explicit
+/// method or a stiff one. Internal to the primitives layer.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "primitives/integration_step.h"
@@ -25,6 +26,12 @@ namespace prehensile {
 struct Crossing {
   double at = StepControl::kNever;
   std::optional<Limit> limit;
+};
+
+/// A place inside a step, as a share of it, and the margin of the contact mode there.
+struct Look {
+  double at = 0.0;
+  double margin = StepControl::kNever;
 };
 
 /// `Instant` is the source of the rates: `PushInstant` in the pad plane,
@@ -65,10 +72,10 @@ class PushRun {
   static constexpr double kLocationShare = 0.1;
 
   /// Longest integrated step over the wanted spacing of checks: the mode is looked at in
-  /// twelve places of it. Pads, unlike the ellipsoid, have kinks to be found as well.
+  /// eight places of it. Pads, unlike the ellipsoid, have kinks to be found as well.
   static double longest_step(const TransitionOptions& options) {
     const bool is_smooth = options.friction_model == FrictionModel::kEllipsoid;
-    return std::min(1.0, (is_smooth ? 20.0 : 10.0) * options.max_step);
+    return std::min(1.0, (is_smooth ? 14.0 : 7.0) * options.max_step);
   }
 
   /// Share of its length by which a step that is to end at an event goes beyond it.
@@ -95,8 +102,8 @@ class PushRun {
   bool rate_at_end(double s, const Vec2& q, Vec2& out);
   void look_inside();
   template <class Rate>
-  double look_at_nodes(const Rate& rate);
-  double halved_error() const;
+  double look_at_nodes(const BaseStep& base, const Rate& rate);
+  double counted_error() const;
   void doubt_stiff_step(bool kink);
   double length_of(const Vec2& error) const;
   double growth(double share) const;
@@ -139,13 +146,13 @@ class PushRun {
   double margin_ = 0.0;  ///< of the contact mode at s_
   double error_ = 0.0;   ///< [m] estimate for the pose at s_
 
-  DoubledStep step_;
-  double inside_error_ = 0.0;   ///< [m] of the state where an event was found
-  double step_error_ = 0.0;     ///< [m]
-  double middle_margin_ = 0.0;  ///< of the contact mode
-  double least_margin_ = 0.0;   ///< of the contact mode over its stages
-  double least_at_ = 0.0;       ///< [share of the push] where that is
-  double dip_at_ = kNever;      ///< [share of the step] a place inside, beyond the mode
+  DenseStep step_;
+  double inside_error_ = 0.0;  ///< [m] of the state where an event was found
+  double step_error_ = 0.0;    ///< [m]
+  std::array<Look, 2> looks_;  ///< between both ends
+  double least_margin_ = 0.0;  ///< of the contact mode over its stages
+  double least_at_ = 0.0;      ///< [share of the push] where that is
+  double dip_at_ = kNever;     ///< [share of the step] a place inside, beyond the mode
   double dip_margin_ = 0.0;
   PushStop stop_;
   Regime regime_ = Regime::kStick;

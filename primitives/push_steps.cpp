@@ -24,18 +24,15 @@ constexpr double kNotStiff = 1.0;
 /// Longest step with an overhanging pad over the wanted spacing of checks.
 constexpr double kOverhangStep = 4.0;
 
-/// Embedded over allowed error of the first part of a step whose rest need not be tried,
-/// and over the error that the step would have.
+/// Counted over computed error of a single step: with a kink it is random. And the share
+/// of the embedded error that counts where the computed one is small by chance.
+constexpr double kDoubt = 5.0;
+constexpr double kOfEmbedded = 0.05;
+
+/// Embedded over allowed error of a whole stiff step whose halves need not be tried, and
+/// over the error that the step would have.
 constexpr double kHopeless = 500.0;
 constexpr double kHopelessIsMore = 100.0;
-
-/// Counted over computed error of a step in halves: smooth, and with a kink, where the
-/// error is random; how much of the embedded errors the defect is with a kink; and the
-/// share of the defect that counts as error where the defects of both places cancel.
-constexpr double kDoubtOfHalves = 1.3;
-constexpr double kDoubtOfKink = 2.5;
-constexpr double kKink = 0.3;
-constexpr double kOfDefect = 0.02;
 
 /// Counted over computed error of a stiff step, and of one with a kink.
 constexpr double kDoubtOfStiff = 1.5;
@@ -76,11 +73,12 @@ bool PushRun<Instant>::integrate() {
   const double middle = s_ + 0.5 * step_.h;
   int low_pivot = std::numeric_limits<int>::max();
   int high_pivot = -2;
+  looks_ = {};
   least_margin_ = dip_at_ = kNever;
   const auto rate = [this, middle, &low_pivot, &high_pivot](double s, const Vec2& q,
                                                             Vec2& out) {
     if (!rate_in_mode(s, q, out)) return false;
-    if (s == middle) middle_margin_ = mode_margin();
+    if (stiff_ && s == middle) looks_[0] = {0.5, mode_margin()};
     low_pivot = std::min(low_pivot, instant_.pivot());
     high_pivot = std::max(high_pivot, instant_.pivot());
     if (const double margin = mode_margin(); margin < least_margin_) {
@@ -109,8 +107,9 @@ bool PushRun<Instant>::integrate() {
     const auto method = [](const auto& f, BaseStep& base) {
       return dormand_prince(f, base);
     };
-    failed_at = halved(method, rate, end_rate, is_hopeless, step_);
-    if (failed_at == kNever && !step_.gave_up) failed_at = look_at_nodes(rate);
+    BaseStep base;
+    failed_at = single(method, rate, end_rate, base, step_);
+    if (failed_at == kNever) failed_at = look_at_nodes(base, rate);
   }
   if (failed_at != kNever) {
     block(failed_at);
@@ -121,7 +120,7 @@ bool PushRun<Instant>::integrate() {
     land_at_kink();
     return false;
   }
-  step_error_ = stiff_ ? kDoubtOfStiff * length_of(step_.error) : halved_error();
+  step_error_ = counted_error();
   const bool accepted =
       control_.accepts(step_.h, step_error_, stiff_ ? kStiffOrder : kOrder);
   watch_stiffness(accepted);
@@ -134,32 +133,31 @@ bool PushRun<Instant>::integrate() {
   return true;
 }
 
-/// The rates at the places that tell the error of a step taken in halves; a place without
-/// motion, or infinity.
+/// The rates at the places that tell the error of a single step; a place without motion,
+/// or infinity.
 template <class Instant>
 template <class Rate>
-double PushRun<Instant>::look_at_nodes(const Rate& rate) {
+double PushRun<Instant>::look_at_nodes(const BaseStep& base, const Rate& rate) {
   instant_.set_aside();
   double failed_at = kNever;
   std::array<Vec2, 2> rates;
   for (std::size_t i = 0; i < 2 && failed_at == kNever; ++i) {
     const double x = kQuadratureNodes[i];
     const double s = s_ + x * step_.h;
-    if (!rate(s, step_.at(x), rates[i])) failed_at = s;
+    if (!rate(s, base.at(x), rates[i])) failed_at = s;
+    looks_[i] = {x, mode_margin()};
   }
   instant_.bring_back();
-  if (failed_at == kNever) judge_halves(rates, step_);
+  if (failed_at == kNever) judge(rates, step_);
   return failed_at;
 }
 
-/// What the error of a step taken in halves is counted as. A kink shows where state and
-/// rates inside disagree by as much as the embedded errors; then the error is random.
+/// What the error of a step is counted as.
 template <class Instant>
-double PushRun<Instant>::halved_error() const {
-  const double defect = length_of(step_.defect);
-  const bool kink = defect > kKink * length_of(step_.embedded);
-  return (kink ? kDoubtOfKink : kDoubtOfHalves) *
-         std::max(length_of(step_.error), kOfDefect * defect);
+double PushRun<Instant>::counted_error() const {
+  const double error = length_of(step_.error);
+  if (step_.is_doubled) return kDoubtOfStiff * error;
+  return kDoubt * std::max(error, kOfEmbedded * length_of(step_.embedded));
 }
 
 /// What a stiff step's error may be, with what its computation cannot see: a kink between
@@ -231,14 +229,12 @@ RateDerivatives PushRun<Instant>::derivatives(const BaseStep& base) {
   return found;
 }
 
-/// Where a stage seemed to leave a contact mode that holds in the middle and at the end
-/// of the step, the place itself is looked at.
+/// Where a stage seemed to leave a contact mode that holds wherever the step was looked
+/// at, the place itself is looked at.
 template <class Instant>
 void PushRun<Instant>::look_inside() {
-  if (least_margin_ >= -instant_.noise() || middle_margin_ < -instant_.noise() ||
-      mode_margin() < -instant_.noise()) {
-    return;
-  }
+  const double looked = std::min({looks_[0].margin, looks_[1].margin, mode_margin()});
+  if (least_margin_ >= -instant_.noise() || looked < -instant_.noise()) return;
   const double x = (least_at_ - s_) / step_.h;
   instant_.set_aside();
   Vec2 rate;
@@ -269,7 +265,7 @@ void PushRun<Instant>::watch_stiffness(bool accepted) {
   }
   const Vec2 lengths(1.0, reach_);
   const double apart = step_.probe.cwiseProduct(lengths).norm();
-  const double change = 0.5 * step_.h * step_.probe_rate.cwiseProduct(lengths).norm();
+  const double change = step_.h * step_.probe_rate.cwiseProduct(lengths).norm();
   const double noise = Instant::kSmoothBeyondMode
                            ? 0.0
                            : 1e3 * instant_.rounding() * instant_.speed() * step_.h;

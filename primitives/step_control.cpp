@@ -15,6 +15,10 @@ constexpr double kLeastShare = 0.05;
 constexpr double kCaution = 0.8;
 constexpr double kCautionAfterRefusal = 0.7;
 
+/// Share of what is left of the push from which on a step is stretched to its end: better
+/// than a last one that is short for no reason.
+constexpr double kNearlyAll = 0.75;
+
 }  // namespace
 
 StepControl::StepControl(double tolerance, double longest, double location)
@@ -23,12 +27,15 @@ StepControl::StepControl(double tolerance, double longest, double location)
 double StepControl::next(double s, double cap) {
   const double left = 1.0 - s;
   double h = std::min({natural_, cap, landing_});
-  landing_ = kNever;
   if (blocked_ != kNever) {
     const double free = blocked_ - s;
     // Right before the block: look whether it is still there.
     h = free <= location_ ? free + location_ : std::min(h, 0.5 * free);
+  } else if (landing_ == kNever && left <= std::min(cap, longest_) &&
+             h >= kNearlyAll * left) {
+    h = left;
   }
+  landing_ = kNever;
   return h >= left * (1.0 - 1e-12) ? left : h;
 }
 
@@ -51,6 +58,11 @@ bool StepControl::accepts(double h, double error, int order) {
   }
   was_refused_ = !accepted;
   return accepted;
+}
+
+void StepControl::renew() {
+  natural_ = longest_;
+  was_refused_ = false;
 }
 
 bool StepControl::is_at_block(double s, double at) {

@@ -27,6 +27,9 @@ class StepControl {
   /// The error that a step of length h may have [m].
   double allowed(double h) const;
 
+  /// What was refused before, and why, says nothing about the steps from here on.
+  void renew();
+
   /// The next step shall have this length.
   void land(double length) { landing_ = length; }
 

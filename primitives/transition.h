@@ -76,10 +76,10 @@ enum class PushLevel {
 struct TransitionOptions {
   double tolerance = 1e-6;  ///< [m] accepted error of the end pose (angles weigh c)
   double max_step = 0.05;   ///< share of the push between samples of a trace, and unit of
-                           ///< the longest steps: ten (ellipsoid: twenty) of it where the
-                           ///< object slips or turns; lower it to see contact modes that
-                           ///< last for less than a thirtieth of such a step
-  int max_steps = 2000;  ///< attempted steps; raise for stiff pushes at fine tolerance
+                            ///< the longest steps: seven (ellipsoid: fourteen) of it
+                            ///< where the object slips or turns; lower it to see contact
+                            ///< modes that last for less than half of such a step
+  int max_steps = 2000;     ///< attempted steps; raise for stiff pushes at fine tolerance
   double certificate_tolerance = 1e-6;
   FrictionModel friction_model = FrictionModel::kPads;  ///< not for rolls
   PushLevel level = PushLevel::kChoose;                 ///< not for rolls

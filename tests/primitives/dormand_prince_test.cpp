@@ -44,6 +44,21 @@ TEST(DormandPrince, ErrorEstimateIsOfFifthOrderAndLargerThanTheError) {
   EXPECT_GT(wide.error.norm(), (wide.y_end - exact(0.5)).norm());
 }
 
+TEST(DormandPrince, StateInsideIsOfFourthOrder) {
+  const auto worst = [](double h) {
+    const BaseStep step = step_from(0.4, exact(0.4), h);
+    EXPECT_NEAR((step.at(0.0) - step.y).norm(), 0.0, 1e-15);
+    EXPECT_NEAR((step.at(0.5) - step.y_middle).norm(), 0.0, 1e-15);
+    EXPECT_NEAR((step.at(1.0) - step.y_end).norm(), 0.0, 1e-15);
+    double error = 0.0;
+    for (const double x : {0.1, 0.28, 0.5, 0.72, 0.9}) {
+      error = std::max(error, (step.at(x) - exact(0.4 + x * h)).norm());
+    }
+    return error;
+  };
+  EXPECT_NEAR(std::log2(worst(0.2) / worst(0.1)), 5.0, 0.4);  // local order
+}
+
 TEST(DormandPrince, EndRateStartsTheNextStepAndTheProbeShowsTheGrowth) {
   const BaseStep step = step_from(0.4, exact(0.4), 0.01);
   Vec2 rate;

@@ -94,18 +94,27 @@ TEST(SpatialPush, PadsOfGivenLoadsDoNotResistTilting) {
   EXPECT_TRUE(level.completed()) << level.reason;
 }
 
-// Gravity along the closing direction: the coupled jaws carry N -/+ W / 2. Where that is
-// all of a jaw's force the object is not held, whatever the pusher does.
-TEST(SpatialPush, GravityFullyAlongTheClosingDirection) {
+// Gravity along the closing direction: the coupled jaws carry N -/+ W / 2, and of what a
+// rough wall adds along it, with its moment about the finger axis, the same. Where that
+// is all of a jaw's force the object is not held, whatever the pusher does.
+TEST(SpatialPush, GravityAlongTheClosingDirectionLoadsTheLowerJaw) {
   Scene scene = square_scene(0.0);
   scene.g_Wz = -kGravity;
-  std::vector<Sample> path;
-  const Transition t = apply(prepare(scene), {}, straight(0.02), {}, &path);
-  ASSERT_TRUE(t.completed()) << t.reason;
-  for (const Sample& sample : path) {
-    EXPECT_NEAR(sample.jaw_force[0], 40.0 + 0.25 * kGravity, 1e-6);
-    EXPECT_NEAR(sample.jaw_force[1], 40.0 - 0.25 * kGravity, 1e-6);
-    EXPECT_NEAR(sample.normal_force, 40.0, 4e-3);
+  for (const double friction : {0.0, 0.5}) {
+    scene.pushers[0].friction = friction;
+    std::vector<Sample> path;
+    const Transition t = apply(prepare(scene), {}, straight(0.02), {}, &path);
+    ASSERT_TRUE(t.completed()) << t.reason;
+    ASSERT_GT(path.size(), 5U);
+    for (const Sample& sample : path) {
+      const double lever = 0.05 - sample.grasp.X_HO.x;  // of the wall, [m]
+      const double added = sample.moment_across / lever;
+      const double shift = 0.25 * kGravity + 0.5 * added;
+      EXPECT_NEAR(sample.jaw_force[0], 40.0 + shift, 1e-6);
+      EXPECT_NEAR(sample.jaw_force[1], 40.0 - shift, 1e-6);
+      EXPECT_NEAR(sample.normal_force, 40.0, 4e-3);
+      EXPECT_LE(added, friction * 40.0 + 1e-6);
+    }
   }
   scene.gripper.grip_force = 0.2 * kGravity;
   const Transition loose = apply(prepare(scene), {}, straight(0.02));

@@ -46,6 +46,27 @@ TEST(StepControl, StepsAsShortAsEventsAreTakenWhateverTheirError) {
   EXPECT_FALSE(control.accepts(2e-6, 1.0));
 }
 
+TEST(StepControl, NoLastStepIsShortForNoReason) {
+  StepControl control(1e-6, 1.0, 1e-6);
+  ASSERT_FALSE(control.accepts(1.0, 1e-4));
+  const double h = control.next(0.0, kNever);
+  EXPECT_LT(h, 0.5);
+  const double s = 1.0 - 1.2 * h;
+  EXPECT_EQ(control.next(s, kNever), 1.0 - s);
+  EXPECT_EQ(control.next(s, h), h);  // not beyond what the step may be
+  control.land(h);
+  EXPECT_EQ(control.next(s, kNever), h);
+  EXPECT_EQ(control.next(1.0 - 1.5 * h, kNever), h);
+}
+
+TEST(StepControl, ForgetsRefusalsWhereAnotherMotionBegins) {
+  StepControl control(1e-6, 0.2, 1e-6);
+  ASSERT_FALSE(control.accepts(0.2, 1.0));
+  EXPECT_LT(control.next(0.0, kNever), 0.1);
+  control.renew();
+  EXPECT_EQ(control.next(0.0, kNever), 0.2);
+}
+
 TEST(StepControl, LandsOnce) {
   StepControl control(1e-6, 0.2, 1e-6);
   control.land(0.013);

@@ -12,6 +12,7 @@
 #include "apps/push_options.h"
 #include "apps/table.h"
 #include "apps/view_output.h"
+#include "io/object_surface.h"
 #include "io/plan_file.h"
 #include "io/scene_file.h"
 #include "planner/advice.h"
@@ -85,7 +86,12 @@ int run(const Options& options) {
   write_atomically(options.output, json);
   const std::string arm = write_arm_files(options.arm, model, written);
   if (!options.view.empty())
-    write_view({.page = options.view}, {{model, plan, true, {}}});
+    write_view({.page = options.view},
+               {{model,
+                 plan,
+                 true,
+                 {},
+                 read_object_surface(options.scene.file, options.scene.overrides)}});
   if (options.scene.json) {
     std::fputs(json.c_str(), stdout);
     std::fputs(arm.c_str(), stderr);

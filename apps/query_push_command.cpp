@@ -14,6 +14,7 @@
 #include "apps/push_options.h"
 #include "apps/table.h"
 #include "apps/view_output.h"
+#include "io/object_surface.h"
 #include "io/plan_file.h"
 #include "io/scene_file.h"
 #include "planner/plan.h"
@@ -169,7 +170,12 @@ int run(const Options& options) {
       apply(model, chosen_grasp(model, options.push), push,
             {.tolerance = 1e-6 * options.path.tolerance_um}, &trace);
   if (!options.view.empty()) {
-    write_view({.page = options.view}, {{model, alone, false, {}}});
+    write_view({.page = options.view},
+               {{model,
+                 alone,
+                 false,
+                 {},
+                 read_object_surface(options.scene.file, options.scene.overrides)}});
   }
   if (!mjcf.empty()) write_atomically(options.mjcf, mjcf);
   if (options.scene.json) {

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -11,6 +13,7 @@
 #include "apps/plan_samples.h"
 #include "apps/uncertainty_options.h"
 #include "apps/view_output.h"
+#include "io/object_surface.h"
 #include "io/plan_file.h"
 
 namespace prehensile::apps {
@@ -19,6 +22,7 @@ namespace {
 struct Options {
   std::vector<std::string> files;
   std::vector<std::string> overrides;
+  std::string scene;
   bool json = false;
   ViewFiles out;
   int samples = 0;
@@ -48,19 +52,48 @@ std::vector<Grasp> sampled_ends(const Options& options, const Shown& shown) {
   return ends;
 }
 
+bool is_same(const SolidShape& one, const SolidShape& other) {
+  constexpr double kSame = 1e-9;  // [m]
+  return one.outline.size() == other.outline.size() &&
+         std::abs(one.thickness - other.thickness) < kSame &&
+         std::equal(one.outline.begin(), one.outline.end(), other.outline.begin(),
+                    [](const Vec2& p, const Vec2& q) { return (p - q).norm() < kSame; });
+}
+
+/// The triangles of the plan's object, from the scene that it was planned for.
+std::optional<ObjectSurface> surface_from(const std::string& scene,
+                                          const Scene& planned) {
+  if (scene.empty()) return std::nullopt;
+  std::optional<ObjectSurface> surface = read_object_surface(scene);
+  const Scene shown = read_scene(scene).scene;
+  const auto* solid = std::get_if<SolidShape>(&planned.object.shape);
+  const auto* read = std::get_if<SolidShape>(&shown.object.shape);
+  if (!surface || !solid || !is_same(*read, *solid)) {
+    throw BadInput("--scene " + scene +
+                   ": expected a scene whose object is the mesh that was planned for");
+  }
+  return surface;
+}
+
 Shown read(const Options& options, const std::string& file) {
   if (!is_plan_file(file)) {
+    if (!options.scene.empty()) {
+      throw BadInput("--scene " + options.scene + ": " + file +
+                     " is a scene: expected a plan file");
+    }
     const Scene scene = read_scene(file, options.overrides).scene;
     Plan plan;
     plan.start = plan.goal = scene.start;
-    return {prepare(scene), plan, false, {}};
+    return {
+        prepare(scene), plan, false, {}, read_object_surface(file, options.overrides)};
   }
   if (!options.overrides.empty()) {
     throw BadInput("--set " + options.overrides.front() + ": " + file +
                    " is a plan, made for the scene in it: expected a scene file");
   }
   const PlanFile read = read_plan(file);
-  Shown shown{prepare(read.scene), read.plan, true, {}};
+  Shown shown{
+      prepare(read.scene), read.plan, true, {}, surface_from(options.scene, read.scene)};
   const bool has_pushes = shown.plan.usable() && !shown.plan.pushes.empty();
   if (options.samples > 0 && has_pushes) shown.outcomes = sampled_ends(options, shown);
   return shown;
@@ -113,6 +146,9 @@ Command add_view(CLI::App& app) {
       .add_option("--set", options->overrides,
                   "override a field of the scene file: start.x=0.01 (repeatable)")
       ->allow_extra_args(false);
+  command.add_option(
+      "--scene", options->scene,
+      "of a plan whose object is a mesh: its scene file, for the triangles");
   command.add_flag("--json", options->json,
                    "print one JSON object on stdout, nothing else");
   command.add_option("-o,--output", options->out.page,

@@ -19,7 +19,8 @@ constexpr int kPadPoints = 15'000;
 
 void write_exports(const ViewFiles& files, const Shown& one) {
   if (files.frames.empty() && files.glb.empty()) return;
-  const viewer::Film film = viewer::film(one.model, one.plan, {.is_plan = one.is_plan});
+  viewer::Film film = viewer::film(one.model, one.plan, {.is_plan = one.is_plan});
+  film.surface = one.surface;
   if (!files.frames.empty()) {
     write_atomically(files.frames, viewer::key_frames(one.model, film));
   }
@@ -55,6 +56,7 @@ bool write_view(const ViewFiles& files, const std::vector<Shown>& shown) {
         one.model, one.plan,
         {.frames = kFrames / parts, .pushes = kPushes / parts, .is_plan = one.is_plan});
     film.outcomes = one.outcomes;
+    film.surface = one.surface;
     all_agree = all_agree && film.agrees;
     title += (title.empty() ? "" : " | ") + one.model.scene.name;
     films.push_back(viewer::to_json(one.model, one.plan, film, kPadPoints / parts));

@@ -2,11 +2,13 @@
 /// viewer refuse.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "io/scene_file.h"
 #include "planner/plan.h"
+#include "scene/object_surface.h"
 
 namespace CLI {
 class App;
@@ -20,7 +22,8 @@ struct Shown {
   Model model;
   Plan plan;
   bool is_plan = true;
-  std::vector<Grasp> outcomes;  ///< ends of sampled members of the uncertainty
+  std::vector<Grasp> outcomes;           ///< ends of sampled members of the uncertainty
+  std::optional<ObjectSurface> surface;  ///< of an object from a mesh, where it is known
 };
 
 /// --view FILE, of a command that makes a plan or a push.

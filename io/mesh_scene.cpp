@@ -5,6 +5,7 @@
 
 #ifdef PREHENSILE_HAS_MESHES
 #include "mesh/face_pairs.h"
+#include "mesh/few_triangles.h"
 #include "mesh/urdf.h"
 #endif
 
@@ -63,7 +64,7 @@ std::string names_of(const std::vector<FacePair>& pairs) {
 }
 
 void load(const MeshShape& mesh, const fs::path& folder, Scene& scene, const Value& root,
-          Faults& faults) {
+          Faults& faults, std::optional<ObjectSurface>* surface) {
   const Place place = place_of(root, kField);
   const fs::path file = inside(folder, mesh.file);
   if (file.empty()) {
@@ -81,7 +82,9 @@ void load(const MeshShape& mesh, const fs::path& folder, Scene& scene, const Val
     return;
   }
   if (const FacePair* pair = chosen(pairs, mesh)) {
-    scene.object.shape = body_between(triangles, *pair).shape;
+    const HeldBody body = body_between(triangles, *pair);
+    scene.object.shape = body.shape;
+    if (surface) *surface = few_triangles(triangles, body.X_MO.inverse());
     return;
   }
   faults.add(place_of(root, "object.mesh.pair"), "object.mesh.pair",
@@ -108,11 +111,12 @@ void add_mass_beside_mesh(Value& root, const fs::path& folder, Faults& faults) t
   faults.add(place_of(root, kField), "object.mass", bad.what());
 }
 
-void load_mesh(Scene& scene, const Value& root, const fs::path& folder, Faults& faults) {
+void load_mesh(Scene& scene, const Value& root, const fs::path& folder, Faults& faults,
+               std::optional<ObjectSurface>* surface) {
   const auto* mesh = std::get_if<MeshShape>(&scene.object.shape);
   if (!mesh || faults.concerns("object.mesh")) return;
   try {
-    load(MeshShape(*mesh), folder, scene, root, faults);
+    load(MeshShape(*mesh), folder, scene, root, faults, surface);
   } catch (const BadMesh& bad) {
     faults.add(place_of(root, kField), kField, bad.what());
   }
@@ -124,7 +128,7 @@ void load_mesh(Scene& scene, const Value& root, const fs::path& folder, Faults& 
 void add_mass_beside_mesh(Value&, const std::filesystem::path&, Faults&) {}
 
 void load_mesh(Scene& scene, const Value& root, const std::filesystem::path&,
-               Faults& faults) {
+               Faults& faults, std::optional<ObjectSurface>*) {
   if (!std::holds_alternative<MeshShape>(scene.object.shape)) return;
   faults.add(place_of(root, "object.mesh"), "object.mesh",
              "this build reads no meshes: expected another shape");

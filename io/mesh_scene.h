@@ -3,6 +3,7 @@
 #pragma once
 
 #include "io/document.h"
+#include "scene/object_surface.h"
 #include "scene/scene.h"
 
 namespace prehensile::internal {
@@ -13,7 +14,8 @@ void add_mass_beside_mesh(Value& root, const std::filesystem::path& folder,
                           Faults& faults);
 
 /// Replaces a MeshShape by the solid that its file holds. Faults name the field.
+/// `surface`, if not null, gets the triangles to look at.
 void load_mesh(Scene& scene, const Value& root, const std::filesystem::path& folder,
-               Faults& faults);
+               Faults& faults, std::optional<ObjectSurface>* surface);
 
 }  // namespace prehensile::internal

@@ -8,6 +8,7 @@
 #include "io/field_schema.h"
 #include "io/field_writer.h"
 #include "io/mesh_scene.h"
+#include "io/object_surface.h"
 #include "io/scene_fields.h"
 
 namespace prehensile {
@@ -31,11 +32,9 @@ void add_faults_of_values(const Scene& scene, const Value& root, Faults& faults)
   }
 }
 
-}  // namespace
-
-Scene parse_scene_alone(const std::string& text, const std::string& label,
-                        const std::vector<std::string>& overrides,
-                        const std::filesystem::path& folder) {
+Scene parsed(const std::string& text, const std::string& label,
+             const std::vector<std::string>& overrides,
+             const std::filesystem::path& folder, std::optional<ObjectSurface>* surface) {
   Faults faults(label, overrides);
   if (text.size() > internal::kLargestScene) {
     faults.fail({}, "",
@@ -50,10 +49,18 @@ Scene parse_scene_alone(const std::string& text, const std::string& label,
   internal::add_mass_beside_mesh(root, folder, faults);
   Scene scene;
   internal::FieldReader::read(root, "", faults, scene, kVisit);
-  internal::load_mesh(scene, root, folder, faults);
+  internal::load_mesh(scene, root, folder, faults, surface);
   add_faults_of_values(scene, root, faults);
   faults.raise();
   return scene;
+}
+
+}  // namespace
+
+Scene parse_scene_alone(const std::string& text, const std::string& label,
+                        const std::vector<std::string>& overrides,
+                        const std::filesystem::path& folder) {
+  return parsed(text, label, overrides, folder, nullptr);
 }
 
 SceneFile parse_scene(const std::string& text, const std::string& label,
@@ -70,6 +77,14 @@ SceneFile read_scene(const std::filesystem::path& file,
                      const std::vector<std::string>& overrides) {
   const std::string text = internal::read_text(file, internal::kLargestScene);
   return parse_scene(text, file.string(), overrides, file.parent_path());
+}
+
+std::optional<ObjectSurface> read_object_surface(
+    const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  const std::string text = internal::read_text(file, internal::kLargestScene);
+  std::optional<ObjectSurface> surface;
+  parsed(text, file.string(), overrides, file.parent_path(), &surface);
+  return surface;
 }
 
 std::string scene_to_yaml(const Scene& scene) {

@@ -28,7 +28,8 @@ constexpr const char* kPusherColour = "0.79 0.64 0.36 1";
 constexpr const char* kAbout =
     " Written by prehensile. World: W of the scene, z is the closing direction. SI "
     "units, "
-    "radians, quaternions w x y z. qpos: hand x, y, angle; pad points; object x, y, z, "
+    "radians, quaternions w x y z. qpos: hand x, y, z, angle; pad points; object x, y, "
+    "z, "
     "quaternion. ctrl: grip force of each finger [N]. Reset to key frame push_k and step "
     "for push_k_seconds (custom numeric): the heavy hand coasts along the push. All "
     "contacts are explicit pairs. ";
@@ -160,7 +161,7 @@ class Writer {
       write_side(body, pusher);
       for (const int contact : stage_.contacts) {
         const PushContact& touched = model_.contacts[static_cast<std::size_t>(contact)];
-        if (touched.pusher == static_cast<int>(i)) write_contact(object, body, touched);
+        if (touched.pusher == static_cast<int>(i)) write_contact(object, body, contact);
       }
     }
   }
@@ -190,7 +191,8 @@ class Writer {
     return std::string(kPusherPrefix) + pusher.name + "_side";
   }
 
-  void write_contact(XMLElement* object, XMLElement* body, const PushContact& contact) {
+  void write_contact(XMLElement* object, XMLElement* body, int index) {
+    const PushContact& contact = model_.contacts[static_cast<std::size_t>(index)];
     const Pusher& pusher = model_.scene.pushers[static_cast<std::size_t>(contact.pusher)];
     if (is_round_side(model_, contact) && !contact.is_point) {
       write_plane(body, pusher, contact);
@@ -199,7 +201,8 @@ class Writer {
     const Face& face = model_.faces[static_cast<std::size_t>(contact.face)];
     const std::string name = pusher.name + "_on_" + face.name;
     // Where points of the pad plane are in an object that has rolled.
-    const Eigen::Quaterniond rolled_back = attitude(model_, 0.0, -stage_.psi);
+    const Eigen::Quaterniond rolled_back =
+        attitude(model_, 0.0, -stage_.psi[static_cast<std::size_t>(index)]);
     std::set<double> heights{contact.z_low, contact.z_high};
     int count = 0;
     for (const double z : heights) {
@@ -249,12 +252,13 @@ class Writer {
   // ---- hand and pads
 
   void write_hand(XMLElement* hand) {
-    const std::array<const char*, kHandJoints> names{"hand_x", "hand_y", "hand_theta"};
+    const std::array<const char*, kHandJoints> names{"hand_x", "hand_y", "hand_z",
+                                                     "hand_theta"};
     for (int i = 0; i < kHandJoints; ++i) {
       XMLElement* joint = child(hand, "joint");
       set(joint, "name", std::string(names[static_cast<std::size_t>(i)]));
-      set(joint, "type", std::string(i < 2 ? "slide" : "hinge"));
-      set(joint, "axis", Vec3(Vec3::Unit(i)));
+      set(joint, "type", std::string(i < 3 ? "slide" : "hinge"));
+      set(joint, "axis", Vec3(Vec3::Unit(std::min(i, 2))));
       set(joint, "armature", kHeavy);  // no weight: gravity leaves it alone
     }
     add_light_inertia(hand);

@@ -3,9 +3,10 @@
 /// contacts come close to rigid Coulomb friction (docs/mujoco.md).
 ///
 /// Frames and units: MuJoCo's world is W of the scene, z up is the closing direction; SI,
-/// radians; quaternions are w, x, y, z. `qpos` holds the hand (x, y of H in W, and its
-/// angle about z), then each pad point along its own slide (0: where it touches), then
-/// the object (x, y, z, quaternion of O in W). `ctrl` is the grip force of each finger.
+/// radians; quaternions are w, x, y, z. `qpos` holds the hand (x, y, z of H in W, and
+/// its angle about z), then each pad point along its own slide (0: where it touches),
+/// then the object (x, y, z, quaternion of O in W). `ctrl` is the grip force of each
+/// finger.
 ///
 /// One key frame per push: the object flush with the pusher, and the hand, which weighs
 /// so much that nothing stops it, coasting along the straight push for as long as the
@@ -29,6 +30,6 @@ std::string file_text(const Model& model, const std::vector<PlannedPush>& pushes
 /// What the bodies and joints are called. Pushers: kPusherPrefix and their name.
 inline constexpr std::string_view kPusherPrefix = "pusher_";
 inline constexpr std::string_view kObject = "object";
-inline constexpr int kHandJoints = 3;  ///< the first of qpos: x, y, angle about z
+inline constexpr int kHandJoints = 4;  ///< the first of qpos: x, y, z, angle about z
 
 }  // namespace prehensile::mjcf

@@ -60,10 +60,10 @@ std::string warnings_of(const mjData& data) {
   return words;
 }
 
-Eigen::Isometry3d pose_of(const PlanarPose& hand) {
+Eigen::Isometry3d pose_of(const HandPose& hand) {
   Eigen::Isometry3d X_WH = Eigen::Isometry3d::Identity();
-  X_WH.translate(Vec3(hand.x, hand.y, 0.0));
-  X_WH.rotate(Eigen::AngleAxisd(hand.theta, Vec3::UnitZ()));
+  X_WH.translate(Vec3(hand.X_WH.x, hand.X_WH.y, hand.z));
+  X_WH.rotate(Eigen::AngleAxisd(hand.X_WH.theta, Vec3::UnitZ()));
   return X_WH;
 }
 
@@ -72,7 +72,7 @@ class Simulation {
  public:
   Simulation(const Stage& stage, ModelPointer model)
       : model_(std::move(model)), data_(mj_makeData(model_.get())) {
-    data_->ctrl[0] = stage.model->scene.gripper.grip_force;
+    grip(stage.model->scene.gripper.grip_force);
     object_ = mj_name2id(model_.get(), mjOBJ_BODY, std::string(kObject).c_str());
     first_of_object_ = model_->jnt_qposadr[model_->body_jntadr[object_]];
     margins_.assign(model_->pair_margin, model_->pair_margin + model_->npair);
@@ -92,8 +92,11 @@ class Simulation {
     }
   }
 
+  /// Each finger with so much [N] from now on.
+  void grip(double force) { data_->ctrl[0] = force; }
+
   /// Puts hand and object somewhere, at rest.
-  void place(const PlanarPose& hand, const Eigen::Isometry3d& X_HO) {
+  void place(const HandPose& hand, const Eigen::Isometry3d& X_HO) {
     const Eigen::Isometry3d X_WO = pose_of(hand) * X_HO;
     const Eigen::Quaterniond q(X_WO.linear());
     double* at = data_->qpos + first_of_object_;
@@ -108,7 +111,7 @@ class Simulation {
   }
 
   /// The object in the hand, as MuJoCo has it.
-  Eigen::Isometry3d held(const PlanarPose& hand) const {
+  Eigen::Isometry3d held(const HandPose& hand) const {
     const double* at = data_->qpos + first_of_object_;
     Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
     X_WO.translate(Vec3(at[0], at[1], at[2]));
@@ -142,10 +145,13 @@ class Simulation {
   /// Fixed to the world, and not the world itself.
   bool is_pusher(int body) const { return body > 0 && model_->body_weldid[body] == 0; }
 
-  void lead(const PlanarPose& now, const PlanarPose& next) {
+  void lead(const HandPose& now, const HandPose& next) {
     const double dt = model_->opt.timestep;
-    const std::array<double, kHandJoints> from{now.x, now.y, now.theta};
-    const std::array<double, kHandJoints> to{next.x, next.y, next.theta};
+    const auto joints = [](const HandPose& hand) {
+      return std::array<double, kHandJoints>{hand.X_WH.x, hand.X_WH.y, hand.z,
+                                             hand.X_WH.theta};
+    };
+    const std::array<double, kHandJoints> from = joints(now), to = joints(next);
     for (std::size_t i = 0; i < kHandJoints; ++i) {
       data_->qpos[i] = from[i];
       data_->qvel[i] = (to[i] - from[i]) / dt;
@@ -276,10 +282,19 @@ class Replayer {
     MujocoPush result;
     result.seconds = goes_on ? 0.0 : approach(planned, before);
     const Pace pace(seconds_of(stage_, planned));
-    result.peak_force = simulation_.follow(
-        pace.seconds(), [&](double t) { return hand_at(model_, planned, pace.done(t)); });
+    const double begin = goes_on ? z_WH_ : 0.0;
+    const auto hand = [&](double s) {
+      HandPose at = hand_at(model_, planned, s);
+      at.z += begin;
+      return at;
+    };
+    result.seconds += change_grip(grip_of(model_, planned), hand(0.0));
+    result.peak_force =
+        simulation_.follow(pace.seconds(), [&](double t) { return hand(pace.done(t)); });
     result.seconds += pace.seconds();
-    X_HO_ = simulation_.held(hand_at(model_, planned, 1.0));
+    result.seconds += change_grip(model_.scene.gripper.grip_force, hand(1.0));
+    z_WH_ = hand(1.0).z;
+    X_HO_ = simulation_.held(hand(1.0));
     result.end = grasp_of(model_, X_HO_, planned.end);
     const Difference now = difference(result.end, planned.end);
     const Difference added = now - before;
@@ -304,7 +319,7 @@ class Replayer {
                        std::abs(before.theta) * (contact.b - contact.a).norm();
     simulation_.let_touch(
         model_.scene.pushers[static_cast<std::size_t>(contact.pusher)].name);
-    const PlanarPose away = hand_at(model_, planned, 0.0, gap);
+    const HandPose away = hand_at(model_, planned, 0.0, gap);
     simulation_.place(away, X_HO_);
     simulation_.follow(kSettle, [&away](double) { return away; });
     const Pace pace(gap / stage_.speed);
@@ -314,10 +329,21 @@ class Replayer {
     return kSettle + pace.seconds();
   }
 
+  /// Fingers loosen and close again only where the pusher bears the object.
+  double change_grip(double force, const HandPose& hand) {
+    if (force == grip_) return 0.0;
+    grip_ = force;
+    simulation_.grip(force);
+    simulation_.follow(kSettle, [&hand](double) { return hand; });
+    return kSettle;
+  }
+
   const Model& model_;
   const Stage& stage_;
   Simulation simulation_;
   Eigen::Isometry3d X_HO_;
+  double z_WH_ = 0.0;
+  double grip_ = model_.scene.gripper.grip_force;
 };
 
 }  // namespace

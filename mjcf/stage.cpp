@@ -12,9 +12,12 @@ namespace prehensile::mjcf {
 namespace {
 
 // [m/s], and [m] that springs yield under the grip force: where loads shift these are
-// stiff, so that the object stays in its plane, and the hand is slow.
+// stiff, so that the object stays in its plane, and the hand is slow. In a roll the
+// support pulls at the object with up to twice the grip force, and coupled jaws stand
+// still against that: over soft springs the object would give way by millimetres.
 constexpr double kSpeed = 2e-3, kSpeedInSpace = 2e-4;
-constexpr double kSoft = 1e-2, kSoftInSpace = 1e-4;
+constexpr double kSoft = 1e-2, kStiff = 1e-4;
+constexpr double kSamePsi = 1e-6;         // [rad]
 constexpr double kLeastLever = 5e-3;      // [m] of turns of small pads
 constexpr double kSamePoint = 1e-4;       // [m]
 constexpr std::size_t kMostCorners = 16;  // of a face that pads leave
@@ -77,10 +80,10 @@ void check_push(const Model& model, std::size_t index, const PlannedPush& planne
     throw NotCarried(of_push(index) + "contact " + std::to_string(contact) +
                      ": expected one of the scene's");
   }
-  if (std::holds_alternative<Roll>(planned.push)) {
+  if (std::holds_alternative<Roll>(planned.push) && !model.cross_section) {
     throw NotCarried(of_push(index) +
-                     "a roll, where MuJoCo disagrees with the mechanics here for a cause "
-                     "that is not known: expected pushes in the pad plane");
+                     "a prism that rolls, over whose edges the points of a pad would "
+                     "yield one by one: expected a cylinder");
   }
   const PushContact& touched = model.contacts[static_cast<std::size_t>(contact)];
   if (is_round_side(model, touched) && !touched.is_point) {
@@ -100,9 +103,32 @@ void check_jaws(const Gripper& gripper) {
     throw NotCarried(std::string("gripper.jaw_mode ") + name(gripper.jaw_mode) +
                      ": expected coupled or locked where the loads of the pads shift");
   }
+}
+
+void check_pressure(const Gripper& gripper) {
   if (gripper.pressure.law != PressureLaw::kFoundation) {
     throw NotCarried(
         "gripper.pressure.law: expected foundation where the loads of the pads shift");
+  }
+}
+
+/// The object touches each pusher at one attitude; a round side has any.
+void place_rolls(Stage& stage) {
+  const Model& model = *stage.model;
+  stage.psi.assign(model.contacts.size(), model.scene.start.psi);
+  std::vector<bool> known(model.contacts.size(), false);
+  for (std::size_t i = 0; i < stage.pushes.size(); ++i) {
+    const PlannedPush& planned = stage.pushes[i];
+    const auto contact = static_cast<std::size_t>(contact_of(planned.push));
+    if (is_round_side(model, model.contacts[contact])) continue;
+    if (known[contact] && std::abs(stage.psi[contact] - planned.start.psi) > kSamePsi) {
+      throw NotCarried(
+          of_push(i) +
+          "the object has rolled since it last touched this pusher: expected "
+          "the same roll");
+    }
+    known[contact] = true;
+    stage.psi[contact] = planned.start.psi;
   }
 }
 
@@ -136,14 +162,21 @@ void place_points(Stage& stage) {
 
 }  // namespace
 
-PlanarPose hand_at(const Model& model, const PlannedPush& planned, double s, double gap) {
+HandPose hand_at(const Model& model, const PlannedPush& planned, double s, double gap) {
   const PushContact& contact =
       model.contacts[static_cast<std::size_t>(contact_of(planned.push))];
   PlanarPose X_WP = pusher_in_world(model, contact, as_linear(planned.push).place);
   const Vec2 back = gap * rotated(X_WP.theta, contact.n);
   X_WP.x += back.x();
   X_WP.y += back.y();
-  return compose(X_WP, inverse(riding(planned, s)));
+  const auto* roll = std::get_if<Roll>(&planned.push);
+  return {compose(X_WP, inverse(riding(planned, s))), roll ? -s * roll->travel : 0.0};
+}
+
+double grip_of(const Model& model, const PlannedPush& planned) {
+  const auto* roll = std::get_if<Roll>(&planned.push);
+  return roll && roll->grip_force > 0.0 ? roll->grip_force
+                                        : model.scene.gripper.grip_force;
 }
 
 Eigen::Quaterniond attitude(const Model& model, double theta, double psi) {
@@ -154,6 +187,7 @@ Eigen::Quaterniond attitude(const Model& model, double theta, double psi) {
 }
 
 double rubbed_path(const Model& model, const Push& push) {
+  if (const auto* roll = std::get_if<Roll>(&push)) return std::abs(roll->travel);
   const ContactPoints& points = model.region.whole();
   double lever = kLeastLever;
   for (int j = 0; j < points.count; ++j) {
@@ -180,14 +214,23 @@ Stage stage(const Model& model, const std::vector<PlannedPush>& pushes, double s
     result.contacts.resize(model.contacts.size());
     std::iota(result.contacts.begin(), result.contacts.end(), 0);
   }
-  result.psi = pushes.empty() ? model.scene.start.psi : pushes.front().start.psi;
+  place_rolls(result);
   result.in_space =
       std::any_of(result.contacts.begin(), result.contacts.end(), [&model](int contact) {
         return model.push_needs_space(model.contacts[static_cast<std::size_t>(contact)]);
       });
-  if (result.in_space) check_jaws(model.scene.gripper);
+  const bool rolls = std::any_of(pushes.begin(), pushes.end(), [](const PlannedPush& p) {
+    return std::holds_alternative<Roll>(p.push);
+  });
+  const bool shifts = result.in_space || rolls;
+  if (shifts) check_jaws(model.scene.gripper);
+  if (result.in_space) check_pressure(model.scene.gripper);
   place_points(result);
-  result.stiffness = grip / (result.in_space ? kSoftInSpace : kSoft);
+  // The loosest grip decides: springs too stiff for it make the pads rattle.
+  double least = grip;
+  for (const PlannedPush& planned : pushes)
+    least = std::min(least, grip_of(model, planned));
+  result.stiffness = least / (shifts ? kStiff : kSoft);
   result.speed = result.in_space ? kSpeedInSpace : kSpeed;
   if (speed > 0.0) result.speed = speed;
   return result;

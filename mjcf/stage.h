@@ -22,10 +22,19 @@ class NotCarried : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// X_WH at the share s of a push, 0 before it begins. `gap` [m]: as far back along the
-/// normal of the pusher.
-PlanarPose hand_at(const Model& model, const PlannedPush& planned, double s,
-                   double gap = 0.0);
+/// Of H in W.
+struct HandPose {
+  PlanarPose X_WH;
+  double z = 0.0;  ///< [m] along the closing direction: rolls move the hand there
+};
+
+/// Where the hand is at the share s of a push, 0 before it begins. `gap` [m]: as far back
+/// along the normal of the pusher.
+HandPose hand_at(const Model& model, const PlannedPush& planned, double s,
+                 double gap = 0.0);
+
+/// Of each finger during a push [N].
+double grip_of(const Model& model, const PlannedPush& planned);
 
 /// Attitude of the object in W: turned about z, and rolled about its own long axis.
 Eigen::Quaterniond attitude(const Model& model, double theta, double psi);
@@ -37,7 +46,7 @@ struct Stage {
   const Model* model = nullptr;  ///< outlives the stage
   std::vector<PlannedPush> pushes;
   std::vector<int> contacts;  ///< of pushes; where there are none, all; in order
-  double psi = 0.0;           ///< [rad] roll of the object, which stays
+  std::vector<double> psi;    ///< [rad] roll of the object, by contact
   ContactPoints points;       ///< of each pad, in H
   bool overhangs = false;     ///< a pad leaves the face in part, and the scene clips it
   bool in_space = false;      ///< loads of the pads shift
@@ -45,8 +54,7 @@ struct Stage {
   double speed = 0.0;         ///< [m/s] of the pad point that rubs most
 };
 
-/// `speed` 0: 2 mm/s, 0.2 mm/s where loads shift. Throws NotCarried; rolls are refused,
-/// for MuJoCo's do not agree with the mechanics here, and why is not known.
+/// `speed` 0: 2 mm/s, 0.2 mm/s where loads shift. Throws NotCarried.
 Stage stage(const Model& model, const std::vector<PlannedPush>& pushes,
             double speed = 0.0);
 

@@ -1,5 +1,5 @@
 /// The bodies of a scene that must keep apart, as convex solids with their poses: what
-/// the search and the check of collisions begin with. Internal to the planner.
+/// the search, the check of collisions and pictures begin with.
 #pragma once
 
 #include <vector>

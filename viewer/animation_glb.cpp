@@ -220,7 +220,18 @@ std::string animation_glb(const Model& model, const Film& film) {
   const PadBody pad = pad_body(model);
   document.show(jaws[0], surface_of(pad, -thick, 0.0), {0.2, 0.22, 0.25, 0.6});
   document.show(jaws[1], surface_of(pad, 0.0, thick), {0.2, 0.22, 0.25, 0.6});
-  document.show(object, surface_of(body), {0.45, 0.62, 0.82, 1.0});
+  document.show(object, film.surface ? surface_of(*film.surface) : surface_of(body),
+                {0.45, 0.62, 0.82, 1.0});
+  if (model.scene.obstacles) {
+    const auto show_bodies = [&](const std::vector<ConvexBody>& bodies, int parent) {
+      for (const ConvexBody& one : bodies) {
+        document.show(document.add_node(one.name, parent),
+                      surface_of(one, extent_of(model)), {0.55, 0.55, 0.58, 0.35});
+      }
+    };
+    show_bodies(model.scene.obstacles->fixture, world);
+    show_bodies(model.scene.obstacles->hand, hand);
+  }
 
   if (film.phases.empty()) {
     const Grasp& start = model.scene.start;

@@ -10,6 +10,7 @@
 #include "planner/arm_motion.h"
 #include "planner/replay.h"
 #include "primitives/motion_cone.h"
+#include "scene/object_surface.h"
 #include "viewer/contact_loads.h"
 
 namespace prehensile::viewer {
@@ -58,10 +59,11 @@ struct FilmPhase {
 struct Film {
   std::vector<FilmPush> pushes;
   std::vector<FilmPhase> phases;
-  std::vector<Grasp> outcomes;  ///< where members of the uncertainty ended
-  bool agrees = true;           ///< a replay of the plan agrees with it
-  std::string why;              ///< why it does not
-  int left_out = 0;             ///< pushes of the plan beyond FilmOptions::pushes
+  std::vector<Grasp> outcomes;           ///< where members of the uncertainty ended
+  std::optional<ObjectSurface> surface;  ///< of an object from a mesh, where it is known
+  bool agrees = true;                    ///< a replay of the plan agrees with it
+  std::string why;                       ///< why it does not
+  int left_out = 0;  ///< pushes of the plan beyond FilmOptions::pushes
 };
 
 struct FilmOptions {

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 
 #include <nlohmann/json.hpp>
 
-#include "viewer/bodies.h"
+#include "viewer/surfaces.h"
 
 namespace prehensile::viewer {
 namespace {
@@ -48,7 +49,58 @@ const char* axis_name(Axis axis) {
   return axis == Axis::kX ? "x" : axis == Axis::kY ? "y" : "z";
 }
 
-Json object_json(const Model& model) {
+/// Vertices [um], each once, and three indices a triangle, one after the other.
+Json surface_json(const Surface& surface) {
+  Json vertices = Json::array(), triangles = Json::array();
+  std::map<std::array<long, 3>, std::size_t> numbers;
+  for (const auto& triangle : surface.triangles) {
+    for (const Vec3& p : triangle) {
+      const std::array<long, 3> um{std::lround(1e6 * p.x()), std::lround(1e6 * p.y()),
+                                   std::lround(1e6 * p.z())};
+      const auto [known, is_new] = numbers.emplace(um, numbers.size());
+      if (is_new) {
+        for (const long value : um) vertices.push_back(value);
+      }
+      triangles.push_back(known->second);
+    }
+  }
+  return {{"vertices", vertices}, {"triangles", triangles}};
+}
+
+Json bodies_json(const std::vector<ConvexBody>& bodies, double extent) {
+  Json out = Json::array();
+  for (const ConvexBody& body : bodies) {
+    out.push_back(
+        {{"name", body.name}, {"surface", surface_json(surface_of(body, extent))}});
+  }
+  return out;
+}
+
+Json obstacles_json(const Model& model) {
+  const auto& obstacles = model.scene.obstacles;
+  if (!obstacles) return nullptr;
+  const double extent = extent_of(model);
+  return {{"fixture", bodies_json(obstacles->fixture, extent)},
+          {"hand", bodies_json(obstacles->hand, extent)}};
+}
+
+/// Two ends each; null where there is none.
+Json limits_json(const Model& model) {
+  if (!model.scene.limits) return nullptr;
+  const GraspLimits& limits = *model.scene.limits;
+  const auto angle = [](const std::optional<double>& end) {
+    return end ? fine(*end) : Json(nullptr);
+  };
+  const auto corner = [](const std::optional<Vec2>& end) {
+    return end ? point(*end) : Json(nullptr);
+  };
+  return {{"theta", {angle(limits.theta_low), angle(limits.theta_high)}},
+          {"finger", {corner(limits.finger_low), corner(limits.finger_high)}},
+          {"hand", {corner(limits.hand_low), corner(limits.hand_high)}},
+          {"hand_angle", {angle(limits.hand_angle_low), angle(limits.hand_angle_high)}}};
+}
+
+Json object_json(const Model& model, const std::optional<ObjectSurface>& mesh) {
   const ObjectBody body = object_body(model);
   Json out = {
       {"mass", number(model.mass)},
@@ -75,6 +127,10 @@ Json object_json(const Model& model) {
                             {"b", point(side.b)},
                             {"low", fine(side.z_low)},
                             {"high", fine(side.z_high)}});
+  }
+  if (mesh) {
+    out["mesh"] = surface_json(surface_of(*mesh));
+    out["mesh"]["off"] = fine(mesh->off);
   }
   return out;
 }
@@ -283,9 +339,11 @@ std::string to_json(const Model& model, const Plan& plan, const Film& film,
               {"is_plan", plan.status != PlanStatus::kNotRun},
               {"verdict", verdict_json(plan, film)},
               {"g_W", {number(scene.g_W.x()), number(scene.g_W.y()), number(scene.g_Wz)}},
-              {"object", object_json(model)},
+              {"object", object_json(model, film.surface)},
               {"gripper", gripper_json(model)},
               {"pushers", pushers_json(model)},
+              {"obstacles", obstacles_json(model)},
+              {"limits", limits_json(model)},
               {"start", grasp(scene.start)},
               {"goal", scene.goal ? goal_json(*scene.goal) : Json(nullptr)},
               {"pushes", Json::array()},

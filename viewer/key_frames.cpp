@@ -5,8 +5,9 @@
 #include <numbers>
 #include <vector>
 
-#include "plot/svg.h"
-#include "viewer/bodies.h"
+#include "planner/obstacle_bodies.h"
+#include "viewer/panel.h"
+#include "viewer/surfaces.h"
 
 namespace prehensile::viewer {
 namespace {
@@ -14,8 +15,7 @@ namespace {
 using plot::Drawing;
 using plot::px;
 
-constexpr double kPanel = 300.0;  // [px] width and height of a picture
-constexpr double kTitle = 26.0;   // [px] above it
+constexpr double kTitle = 26.0;  // [px] above it
 constexpr double kGap = 14.0;
 constexpr double kCaption = 44.0;
 constexpr int kColumns = 4;
@@ -29,68 +29,7 @@ const char* const kFill = "#cfe0f5";
 const char* const kRed = "#b3261e";
 const char* const kGreen = "#14803f";
 const char* const kPad = "#2b2f36";
-
-/// One picture: millimetres of the hand to pixels, y up.
-class Panel {
- public:
-  Panel(Drawing& drawing, double left, double top, const Vec2& middle, double half_width)
-      : drawing_(drawing),
-        left_(left),
-        top_(top),
-        middle_(middle),
-        scale_(0.5 * kPanel / half_width) {}
-
-  Vec2 to_px(const Vec2& p) const {
-    const Vec2 q = scale_ * (p - middle_);
-    return {left_ + 0.5 * kPanel + q.x(), top_ + 0.5 * kPanel - q.y()};
-  }
-  double scale() const { return scale_; }
-
-  void polygon(const std::vector<Vec2>& points, const std::string& fill, double opacity,
-               const Drawing::Stroke& stroke) {
-    std::string data;
-    for (const Vec2& p : points) {
-      const Vec2 q = to_px(p);
-      data += data.empty() ? 'M' : 'L';
-      data += px(q.x()) + ' ' + px(q.y());
-    }
-    drawing_.path(data + 'Z', fill, opacity, stroke);
-  }
-
-  void line(const Vec2& a, const Vec2& b, const Drawing::Stroke& stroke) {
-    const Vec2 p = to_px(a);
-    const Vec2 q = to_px(b);
-    drawing_.line(p.x(), p.y(), q.x(), q.y(), stroke);
-  }
-
-  /// From a, along a vector in pixels; y up.
-  void arrow(const Vec2& a, const Vec2& along, const char* colour, double width) {
-    const Vec2 p = to_px(a);
-    const Vec2 v(along.x(), -along.y());
-    const double length = v.norm();
-    if (!(length > 1.0)) return;
-    const Vec2 u = v / length;
-    const double head = std::min(4.5 * width, 0.6 * length);
-    const Vec2 neck = p + (length - head) * u;
-    drawing_.line(p.x(), p.y(), neck.x(), neck.y(), {colour, width, ""});
-    const Vec2 side = 0.42 * head * perp(u);
-    const Vec2 tip = p + v;
-    const std::string data = std::string("M") + px(tip.x()) + ' ' + px(tip.y()) + 'L' +
-                             px((neck + side).x()) + ' ' + px((neck + side).y()) + 'L' +
-                             px((neck - side).x()) + ' ' + px((neck - side).y()) + 'Z';
-    drawing_.path(data, colour, 1.0, {});
-  }
-
-  void words(double x, double y, const std::string& text, const Drawing::Font& font) {
-    drawing_.text(left_ + x, top_ + y, text, font);
-  }
-
- private:
-  Drawing& drawing_;
-  double left_, top_;
-  Vec2 middle_;
-  double scale_;
-};
+const char* const kBody = "#c9ccd1";
 
 std::vector<Vec2> moved(const PlanarPose& X, std::vector<Vec2> points) {
   for (Vec2& p : points) p = transform(X, p);
@@ -151,11 +90,31 @@ const FilmFrame& frame_near(const FilmPush& push, double share) {
   return push.frames.back();
 }
 
+/// Bodies of fixture and hand; a half space above or below covers everything.
+void draw_obstacles(Panel& panel, const Model& model, const PlanarPose& X_HW) {
+  const auto& obstacles = model.scene.obstacles;
+  if (!obstacles) return;
+  const double extent = extent_of(model);
+  const auto draw = [&](const ConvexBody& body, const PlanarPose& X, const char* dash) {
+    const auto* half_space = std::get_if<HalfSpaceShape>(&body.shape);
+    if (half_space && std::abs((pose_of(body).linear() * half_space->normal).z()) > 0.9) {
+      return;
+    }
+    panel.polygon(moved(X, shadow_of(surface_of(body, extent))), kBody, 0.35,
+                  {kFaint, 0.8, dash});
+  };
+  for (const ConvexBody& body : obstacles->fixture) draw(body, X_HW, "");
+  for (const ConvexBody& body : obstacles->hand) draw(body, {}, "2 2");
+}
+
 void draw_push(Panel& panel, const Model& model, const FilmPush& push,
                double most_force) {
   const FilmFrame& first = push.frames.front();
   const FilmFrame& last = push.frames.back();
   const std::vector<Vec2>& outline = model.outline;
+  const PushContact& contact = model.contacts[static_cast<std::size_t>(push.contact)];
+  const PlanarPose X_WP = pusher_in_world(model, contact, as_linear(push.push).place);
+  draw_obstacles(panel, model, compose(last.X_HP, inverse(X_WP)));
   for (const double share : {1.0 / 3.0, 2.0 / 3.0}) {
     const PlanarPose& X_HO = frame_near(push, share).grasp.X_HO;
     panel.polygon(moved(X_HO, outline), "none", 1.0, {kBefore, 0.7, ""});
@@ -316,6 +275,7 @@ std::string clip(std::size_t index, double left, double top) {
 
 void draw_still(Panel& panel, const Model& model) {
   const Grasp& start = model.scene.start;
+  draw_obstacles(panel, model, start.X_HO);  // O is W at the start
   panel.polygon(moved(start.X_HO, model.outline), kFill, 0.8, {kEdge, 1.7, ""});
   if (const auto& goal = model.scene.goal) {
     const PlanarPose X{goal->x.value_or(start.X_HO.x), goal->y.value_or(start.X_HO.y),

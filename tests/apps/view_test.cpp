@@ -62,6 +62,26 @@ TEST_F(ViewTest, AnswersInJsonAndTakesOverridesOfScenes) {
             2);
 }
 
+/// A plan file has no triangles: the scene has, if it is the plan's.
+TEST_F(ViewTest, TakesTheTrianglesOfAMeshFromTheScene) {
+  if (!PREHENSILE_WITH_MESHES) return;
+  const std::string bracket = folder_.path("bracket.json").string();
+  ASSERT_EQ(run_program("plan problems/bracket.yaml --no-advice -o " + bracket).exit_code,
+            0);
+  EXPECT_EQ(run_program("view " + bracket + " -o " + page_).exit_code, 0);
+  EXPECT_FALSE(holds(read_text(page_), "\"mesh\":{"));
+  const std::string scene = " --scene problems/bracket.yaml -o ";
+  const Outcome shown = run_program("view " + bracket + scene + page_);
+  EXPECT_EQ(shown.exit_code, 0) << shown.err;
+  EXPECT_TRUE(holds(read_text(page_), "\"mesh\":{"));
+  EXPECT_EQ(run_program("view problems/bracket.yaml -o " + page_).exit_code, 0);
+  EXPECT_TRUE(holds(read_text(page_), "\"mesh\":{"));
+  const Outcome other = run_program("view " + plan_ + scene + page_);
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_TRUE(holds(other.err, "--scene problems/bracket.yaml: expected a scene whose"))
+      << other.err;
+}
+
 TEST_F(ViewTest, SaysWhenAPlanDoesNotHold) {
   std::string text = read_text(plan_);
   const std::string key = "\"push_force\": ";

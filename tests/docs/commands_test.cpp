@@ -58,6 +58,9 @@ constexpr std::array kExceptions{
               Run::kInFull, "many seconds"},
     Exception{"prehensile check plan.json --mujoco", Run::kInFull,
               "many seconds; tests/apps/mujoco_test.cpp runs a short one"},
+    Exception{"scripts/mujoco_table.sh", Run::kNever,
+              "minutes; it makes the table that the page shows"},
+    Exception{"node viewer/measure.mjs", Run::kNever, "needs Node, and times a machine"},
     Exception{"prehensile query sweep problems/tilted_hand.yaml --points 16 --json",
               Run::kInFull, "20,000 instants in space"},
 };

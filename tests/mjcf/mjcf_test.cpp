@@ -107,7 +107,8 @@ TEST(Mjcf, KeyFramesSayWhereEverythingIs) {
   ASSERT_EQ(qpos.size(), kHandJoints + slides + 7);
   ASSERT_EQ(qvel.size(), kHandJoints + slides + 6);
   // Held as the scene says.
-  const PlanarPose X_WH{qpos[0], qpos[1], qpos[2]};
+  const PlanarPose X_WH{qpos[0], qpos[1], qpos[3]};
+  EXPECT_EQ(qpos[2], 0.0);
   const std::size_t o = kHandJoints + slides;
   EXPECT_NEAR(qpos[o + 4], 0.0, 1e-12);
   EXPECT_NEAR(qpos[o + 5], 0.0, 1e-12);
@@ -124,12 +125,12 @@ TEST(Mjcf, KeyFramesSayWhereEverythingIs) {
   const auto* numeric = root->FirstChildElement("custom")->FirstChildElement("numeric");
   EXPECT_STREQ(numeric->Attribute("name"), "push_1_seconds");
   const double seconds = numeric->DoubleAttribute("data");
-  const PlanarPose end = hand_at(model, planned, 1.0);
+  const PlanarPose end = hand_at(model, planned, 1.0).X_WH;
   EXPECT_NEAR(qpos[0] + seconds * qvel[0], end.x, 1e-9);
   EXPECT_NEAR(qpos[1] + seconds * qvel[1], end.y, 1e-9);
-  EXPECT_NEAR(qpos[2] + seconds * qvel[2], end.theta, 1e-9);
+  EXPECT_NEAR(qpos[3] + seconds * qvel[3], end.theta, 1e-9);
   EXPECT_LT(seconds * qvel[1], -0.015);
-  EXPECT_NEAR(seconds * qvel[2], 0.1, 1e-9);
+  EXPECT_NEAR(seconds * qvel[3], 0.1, 1e-9);
   EXPECT_EQ(key->DoubleAttribute("ctrl"), model.scene.gripper.grip_force);
 }
 
@@ -140,13 +141,30 @@ TEST(Mjcf, AHandThatCoastsFollowsThePush) {
   for (const double turn : {0.0, 0.4, -0.9}) {
     const PlannedPush planned = from_start(
         model, LinearPush{.e = rotated(0.4, {1.0, 0.0}), .travel = 0.03, .turn = turn});
-    const PlanarPose from = hand_at(model, planned, 0.0);
-    const PlanarPose half = hand_at(model, planned, 0.5);
-    const PlanarPose to = hand_at(model, planned, 1.0);
+    const PlanarPose from = hand_at(model, planned, 0.0).X_WH;
+    const PlanarPose half = hand_at(model, planned, 0.5).X_WH;
+    const PlanarPose to = hand_at(model, planned, 1.0).X_WH;
     EXPECT_NEAR(half.x, 0.5 * (from.x + to.x), 1e-12);
     EXPECT_NEAR(half.y, 0.5 * (from.y + to.y), 1e-12);
     EXPECT_NEAR(half.theta, 0.5 * (from.theta + to.theta), 1e-12);
   }
+}
+
+/// The hand goes against the support, with the grip of the roll.
+TEST(Mjcf, ARollMovesTheHandAlongTheClosingDirection) {
+  const Model model = model_of("paper/roll.yaml");
+  const PlannedPush planned = from_start(model, Roll{.travel = 0.02, .grip_force = 1.5});
+  const std::string text = file_text(model, {planned});
+  tinyxml2::XMLDocument document;
+  ASSERT_EQ(document.Parse(text.c_str()), tinyxml2::XML_SUCCESS);
+  const auto* root = document.FirstChildElement("mujoco");
+  const auto* key = root->FirstChildElement("keyframe")->FirstChildElement("key");
+  const std::vector<double> qvel = numbers_in(key->Attribute("qvel"));
+  const auto* numeric = root->FirstChildElement("custom")->FirstChildElement("numeric");
+  const double seconds = numeric->DoubleAttribute("data");
+  EXPECT_NEAR(seconds * qvel[2], -0.02, 1e-12);
+  for (const int still : {0, 1, 3}) EXPECT_EQ(qvel[static_cast<std::size_t>(still)], 0.0);
+  EXPECT_EQ(key->DoubleAttribute("ctrl"), 1.5);
 }
 
 TEST(Mjcf, RefusesWhatItCannotCarry) {
@@ -164,13 +182,21 @@ TEST(Mjcf, RefusesWhatItCannotCarry) {
   const Model prism = model_of("paper/roll_prism.yaml");
   EXPECT_EQ(refusal(prism, {}), "");
   EXPECT_TRUE(holds(refusal(prism, {from_start(prism, Roll{.travel = 0.01})}),
-                    "push 1: a roll, "));
+                    "push 1: a prism that rolls"));
   const Model tilted = model_of("tilted_hand.yaml", {"gripper.jaw_mode=fixed_jaw_1"});
   EXPECT_TRUE(holds(refusal(tilted, {}), "gripper.jaw_mode fixed_jaw_1"));
   // Across the axis of a can the line of contact leaves the middle of the pads.
   const Model can = model_of("paper/roll.yaml");
-  EXPECT_TRUE(
-      holds(refusal(can, {from_start(can, Roll{.travel = 0.01})}), "push 1: a roll, "));
+  EXPECT_EQ(refusal(can, {from_start(can, Roll{.travel = 0.01})}), "");
+  const Model fixed = model_of("paper/roll.yaml", {"gripper.jaw_mode=fixed_jaw_1"});
+  EXPECT_TRUE(holds(refusal(fixed, {from_start(fixed, Roll{.travel = 0.01})}),
+                    "gripper.jaw_mode fixed_jaw_1"));
+  const Model ledges = model_of("ycb/can_franka.yaml");
+  PlannedPush once = from_start(ledges, Slide{.contact = 1, .e = x, .travel = 0.01});
+  PlannedPush later = once;
+  later.start.psi = 0.3;
+  EXPECT_EQ(refusal(ledges, {once, once}), "");
+  EXPECT_TRUE(holds(refusal(ledges, {once, later}), "push 2: the object has rolled"));
   EXPECT_TRUE(
       holds(refusal(can, {from_start(can, LinearPush{.e = {0.0, 1.0}, .travel = 0.005})}),
             "push 1: the line where the pads touch the cylinder moves"));

@@ -150,6 +150,38 @@ TEST(MujocoReplay, PushesOfManyKindsEndAlike) {
   }
 }
 
+/// A can rolls by travel over radius and stays where it is, whichever way the table goes;
+/// the force is that of the cross-section.
+TEST(MujocoReplay, ACanRollsByTravelOverRadius) {
+  const Model model =
+      prepare(read_scene(kSourceTree / "problems" / "paper/roll.yaml").scene,
+              {.points_per_pad = 4});
+  constexpr double kRadius = 0.02;
+  for (const double travel : {0.01, -0.01}) {
+    const MujocoPush push = replayed(model, Roll{.travel = travel, .grip_force = 3.9});
+    EXPECT_NEAR(push.end.psi, -travel / kRadius, 0.5 * kDeg);
+    EXPECT_LT(push.angle_error, 0.5 * kDeg);
+    EXPECT_LT(push.position_error, 1e-4);
+    EXPECT_LT(push.out_of_plane, 1e-4);
+    EXPECT_LT(std::abs(push.force_error), 0.05);
+  }
+}
+
+/// Where the grip is too tight the table slides by, here and there.
+TEST(MujocoReplay, ATightGripDoesNotRoll) {
+  const Model model = prepare(
+      read_scene(kSourceTree / "problems" / "paper/roll.yaml", {"pushers.0.friction=0.3"})
+          .scene,
+      {.points_per_pad = 4});
+  const Roll roll{.travel = 0.01, .grip_force = 4.8};
+  ASSERT_FALSE(apply(model, model.scene.start, roll).completed());
+  Plan plan;
+  plan.start = model.scene.start;
+  plan.pushes.push_back({.push = roll, .start = plan.start, .end = plan.start});
+  const MujocoReplay replay = mujoco_replay(model, plan);
+  EXPECT_LT(std::abs(replay.pushes[0].end.psi), 0.05 * 0.01 / 0.02);
+}
+
 /// A plan that says something else is told apart.
 TEST(MujocoReplay, SeesAPlanThatIsWrong) {
   const Model model = prepare(bar_scene(), {.points_per_pad = 4});

@@ -1,11 +1,13 @@
 /// Films of shipped scenes: one of every kind of push.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "io/scene_file.h"
+#include "io/object_surface.h"
+#include "planner/collision_bodies.h"
 #include "planner/planner.h"
 #include "viewer/film.h"
 
@@ -43,7 +45,7 @@ inline FilmCase planned(const std::string& file) {
 }
 
 /// Pushes that stick, slip, tip over an end, roll, and one that is followed in space;
-/// plans with lines, and with a roll.
+/// plans with lines, with a roll, of a mesh, with limits, and among obstacles.
 inline const std::vector<FilmCase>& film_cases() {
   static const std::vector<FilmCase> kCases = [] {
     const Vec2 x(1.0, 0.0);
@@ -60,9 +62,22 @@ inline const std::vector<FilmCase>& film_cases() {
     cases.push_back(planned("published/tee_21.yaml"));
     cases.push_back(planned("ycb/can_franka.yaml"));
     cases.push_back(planned("bracket.yaml"));
+    cases.back().film.surface =
+        read_object_surface(kSourceTree / "problems/bracket.yaml");
+    cases.push_back(planned("confined/tee_90.yaml"));
+    if (collisions_are_built()) {
+      cases.push_back(planned("confined/post_in_the_way.yaml"));
+    }
     return cases;
   }();
   return kCases;
+}
+
+/// The plan of a file.
+inline const FilmCase& film_case(const std::string& file) {
+  const std::vector<FilmCase>& cases = film_cases();
+  return *std::find_if(cases.rbegin(), cases.rend(),
+                       [&](const FilmCase& one) { return one.what == file; });
 }
 
 }  // namespace prehensile::testing

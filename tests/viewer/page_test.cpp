@@ -1,5 +1,6 @@
 #include "viewer/page.h"
 
+#include <cmath>
 #include <regex>
 
 #include <gtest/gtest.h>
@@ -80,6 +81,50 @@ TEST(Page, StaysSmallWithManyPoints) {
   EXPECT_GE(one.film.pushes[0].frames[0].loads.pad[0].size(), 30U);
   const std::string data = to_json(one.model, one.plan, one.film);
   EXPECT_LT(page("clipped", {data, data}).size(), kLargestPage);
+}
+
+/// A mesh of as many triangles as are ever drawn, on a page that is large without it.
+TEST(Page, StaysSmallWithAMesh) {
+  FilmCase one = testing::film_case("confined/tee_90.yaml");
+  ObjectSurface& mesh = one.film.surface.emplace();
+  constexpr int kAround = 40;
+  for (int i = 0; i < 26; ++i) {
+    for (int j = 0; j < kAround; ++j) {
+      mesh.vertices.emplace_back(-0.0512345 * std::cos(0.157 * j),
+                                 -0.0512345 * std::sin(0.157 * j), 0.0112345 - 1e-3 * i);
+    }
+  }
+  for (int i = 0; i < 1000; ++i) {
+    mesh.triangles.push_back({i, i + 1, i + kAround});
+    mesh.triangles.push_back({i + 1, i + kAround - 1, i + kAround});
+  }
+  const std::string data = to_json(one.model, one.plan, one.film);
+  const json read = json::parse(data);
+  EXPECT_EQ(read.at("object").at("mesh").at("triangles").size(), 6000U);
+  EXPECT_LT(page("mesh", {data}).size(), kLargestPage);
+}
+
+/// Bodies, limits and meshes are in the data where the scene has them.
+TEST(Page, HoldsObstaclesLimitsAndMeshes) {
+  const auto data = [](const FilmCase& one) {
+    return json::parse(to_json(one.model, one.plan, one.film));
+  };
+  const json plain = data(film_cases()[0]);
+  EXPECT_TRUE(plain.at("obstacles").is_null());
+  EXPECT_TRUE(plain.at("limits").is_null());
+  EXPECT_FALSE(plain.at("object").contains("mesh"));
+  const json limits = data(testing::film_case("confined/tee_90.yaml")).at("limits");
+  EXPECT_NEAR(limits.at("theta")[0].get<double>(), -M_PI / 2.0, 1e-6);
+  EXPECT_TRUE(limits.at("finger")[0].is_null());
+  const FilmCase& bracket = testing::film_case("bracket.yaml");
+  const json mesh = data(bracket).at("object").at("mesh");
+  EXPECT_EQ(mesh.at("triangles").size(), 3 * bracket.film.surface->triangles.size());
+  if (!collisions_are_built()) return;
+  const json bodies = data(testing::film_case("confined/post_in_the_way.yaml"));
+  EXPECT_EQ(bodies.at("obstacles").at("fixture").size(), 4U);
+  const json& finger = bodies.at("obstacles").at("hand")[0];
+  EXPECT_EQ(finger.at("name"), "finger 1");
+  EXPECT_EQ(finger.at("surface").at("vertices").size(), 24U);  // 8 corners [um]
 }
 
 TEST(Page, LoadsNothing) {

@@ -53,6 +53,13 @@ export class Film {
     this.mostPressure = this.#mostPressure();
   }
 
+  /// Whether there is anything of a layer.
+  has(layer) {
+    const {outcomes, obstacles, limits} = this.data;
+    if (layer === 'outcomes') return outcomes.length > 0;
+    return layer !== 'confines' || obstacles !== null || limits !== null;
+  }
+
   #mostForce() {
     let most = 0;
     for (const push of this.data.pushes) {

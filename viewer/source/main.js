@@ -1,6 +1,6 @@
 // The page: reads the data, builds its parts and keeps them at the same time.
 import {Chart} from './charts.js';
-import {element} from './elements.js';
+import {element, mm} from './elements.js';
 import {Film} from './film.js';
 import {kKeys, listen} from './keyboard.js';
 import {Moment, PushList, verdictBox} from './panel.js';
@@ -14,7 +14,13 @@ const kLayers = {
   pads: 'pressure of the pads',
   traces: 'path of the pads',
   outcomes: 'sampled ends',
+  confines: 'obstacles and limits',
 };
+
+/// A mesh of too many triangles is drawn by fewer, and says so.
+function drawnWithin({mesh}) {
+  return mesh?.off > 0 ? ` (its mesh drawn within ${mm(mesh.off)})` : '';
+}
 
 class Viewer {
   constructor(films) {
@@ -49,7 +55,7 @@ class Viewer {
     const letter = this.films.length > 1 ? `${'AB'[i]}: ` : '';
     part.figure = element('figure', {class: 'stage'}, part.failure ?? canvas,
       part.stage && film.data.g_W.some((g) => g !== 0) ? element('span', {class: 'gravity'}, 'gravity') : null,
-      element('figcaption', {}, `${letter}${film.data.name}`));
+      element('figcaption', {}, `${letter}${film.data.name}${drawnWithin(film.data.object)}`));
     part.side = element('section', {class: 'side', 'aria-label': `${letter}${film.data.name}`},
       this.films.length > 1 ? element('h2', {}, `${letter}${film.data.name}`) : null,
       verdictBox(film.data), part.list.root, part.moment.root);
@@ -74,7 +80,7 @@ class Viewer {
 
   #assemble() {
     const layers = Object.entries(kLayers)
-      .filter(([layer]) => layer !== 'outcomes' || this.films.some((film) => film.data.outcomes.length > 0))
+      .filter(([layer]) => this.films.some((film) => film.has(layer)))
       .map(([layer, words]) => this.#layerBox(layer, words));
     this.worldBox = element('select', {'aria-label': 'What stands still'},
       element('option', {value: 'hand'}, 'hand stands still'), element('option', {value: 'world'}, 'world stands still'));

@@ -88,7 +88,23 @@ function sideStrips(sides) {
   return geometry;
 }
 
+/// Triangles of the data: flat, so that edges stay sharp.
+export function triangles({vertices, triangles: indices}) {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new Float32BufferAttribute(vertices.map((um) => 1e-6 * um), 3));
+  geometry.setIndex(indices);
+  const flat = geometry.toNonIndexed();
+  flat.computeVertexNormals();
+  return flat;
+}
+
+/// What is drawn of the object: its mesh where there is one.
 export function objectGeometries(object) {
+  return object.mesh ? [triangles(object.mesh)] : plainGeometries(object);
+}
+
+/// What the mechanics keeps of the object.
+export function plainGeometries(object) {
   const solids = object.prisms.map((body) =>
     body.axis === 'z' ? prism(body.outline, body.low, body.high) : lyingPrism(body));
   solids.push(...object.cylinders.map(cylinder));

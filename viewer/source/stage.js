@@ -1,17 +1,18 @@
 // One film on one canvas: the scene graph is that of the frames, W > H > O, and the whole of
 // it is turned so that either the world or the hand stands still.
 import {
-  Color, DirectionalLight, Group, HemisphereLight, LineBasicMaterial,
-  LineSegments, Matrix4, Mesh, MeshLambertMaterial, PerspectiveCamera, Quaternion, Scene,
-  Vector3, WebGLRenderer, DoubleSide,
+  BufferGeometry, Color, DirectionalLight, Float32BufferAttribute, Group, HemisphereLight, LineBasicMaterial,
+  LineSegments, Matrix4, PerspectiveCamera, Quaternion, Scene, Vector3, WebGLRenderer,
 } from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 
 import {Arrow, overlay} from './arrows.js';
+import {Confines} from './confines.js';
 import {ContactMarks} from './contact_marks.js';
 import {PadMarks} from './pad_marks.js';
 import {inverse} from './pose.js';
-import {edgesOf, objectGeometries, prism, pusherGeometry} from './shapes.js';
+import {edgesOf, objectGeometries, plainGeometries, prism, pusherGeometry} from './shapes.js';
+import {solid} from './solid.js';
 import {Traces} from './traces.js';
 
 const kZ = new Vector3(0, 0, 1);
@@ -25,16 +26,6 @@ const kViews = {
   side: [1.8, 0.25, 0.25],
 };
 
-function solid(geometry, colour, opacity, ink) {
-  const group = new Group();
-  const material = new MeshLambertMaterial({
-    color: colour, transparent: opacity < 1, opacity, depthWrite: opacity > 0.5, side: DoubleSide,
-  });
-  group.add(new Mesh(geometry, material));
-  group.add(new LineSegments(edgesOf(geometry), new LineBasicMaterial({color: ink})));
-  return group;
-}
-
 function setPose(group, [x, y, theta], z = 0) {
   group.position.set(x, y, z);
   group.quaternion.setFromAxisAngle(kZ, theta);
@@ -45,7 +36,7 @@ export class Stage {
     this.film = film;
     this.canvas = canvas;
     this.isWorld = false;
-    this.layers = {forces: true, cones: true, pads: true, traces: true, outcomes: true};
+    this.layers = {forces: true, cones: true, pads: true, traces: true, outcomes: true, confines: true};
     this.reach = film.data.object.reach;
     this.renderer = new WebGLRenderer({canvas, antialias: true, preserveDrawingBuffer: true});
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
@@ -87,6 +78,7 @@ export class Stage {
     this.#addGripper();
     this.#addPushers();
     this.#addGhosts();
+    this.confines = new Confines(this, this.film.data, this.reach, colours);
     this.contacts = new ContactMarks(this.hand, this.reach, colours);
     this.pads = new PadMarks(this.hand, this.film, this.reach, colours);
     this.traces = new Traces(this.object, this.film, colours);
@@ -135,19 +127,35 @@ export class Stage {
       const pose = goal.map((value, i) => value ?? last[i]);
       this.ghosts.add(this.#outline(pose, this.colours.goal, 1));
     }
-    const opacity = Math.max(0.03, Math.min(0.35, 12 / Math.max(1, outcomes.length)));
-    for (const pose of outcomes) {
-      this.outcomes.add(this.#outline(pose, this.colours.sample, opacity));
-    }
+    if (outcomes.length === 0) return;
+    const opacity = Math.max(0.03, Math.min(0.35, 12 / outcomes.length));
+    this.outcomes.add(this.#outlines(outcomes, this.colours.sample, opacity));
   }
 
   #outline(X_HO, colour, opacity) {
-    this.edges ??= objectGeometries(this.film.data.object).map(edgesOf);
-    const group = new Group();
-    const material = new LineBasicMaterial({color: colour, transparent: true, opacity});
-    for (const edges of this.edges) group.add(new LineSegments(edges.clone(), material));
-    this.#poseObject(group, X_HO, 0);
-    return group;
+    return this.#outlines([X_HO], colour, opacity);
+  }
+
+  /// The object at all these poses, drawn at one go.
+  #outlines(poses, colour, opacity) {
+    this.edges ??= plainGeometries(this.film.data.object).map((geometry) => edgesOf(geometry).getAttribute('position'));
+    const count = this.edges.reduce((sum, edges) => sum + edges.count, 0);
+    const points = new Float32Array(3 * count * poses.length);
+    const place = new Group();
+    const p = new Vector3();
+    let at = 0;
+    for (const X_HO of poses) {
+      this.#poseObject(place, X_HO, 0);
+      place.updateMatrix();
+      for (const edges of this.edges) {
+        for (let i = 0; i < edges.count; ++i, at += 3) {
+          p.fromBufferAttribute(edges, i).applyMatrix4(place.matrix).toArray(points, at);
+        }
+      }
+    }
+    const geometry = new BufferGeometry();
+    geometry.setAttribute('position', new Float32BufferAttribute(points, 3));
+    return new LineSegments(geometry, new LineBasicMaterial({color: colour, transparent: true, opacity}));
   }
 
   #poseObject(group, [x, y, theta, psi], z) {
@@ -196,11 +204,12 @@ export class Stage {
       group.visible = isActive || this.isWorld || active < 0;
       group.children[0].material.opacity = isActive ? 0.6 : 0.18;
     });
-    const {forces, cones, pads, traces, outcomes} = this.layers;
+    const {forces, cones, pads, traces, outcomes, confines} = this.layers;
     this.contacts.show(state, this.film, {forces, cones});
     this.pads.show(pads ? state : {...state, frame: null});
     this.traces.show(traces, state, this.film);
     this.outcomes.visible = outcomes;
+    this.confines.show(confines, state);
     this.render();
   }
 

@@ -1,7 +1,7 @@
 // Light and dark: as the system says until the user chooses.
 
 const kNames = ['stage', 'ink', 'object', 'pad', 'pusher', 'goal', 'faint', 'sample', 'force', 'friction', 'cone',
-  'motion', 'slip', 'trace', 'gravity', 'pressureLow', 'pressureHigh', 'shade'];
+  'motion', 'slip', 'trace', 'gravity', 'body', 'limit', 'pressureLow', 'pressureHigh', 'shade'];
 
 export class Theme {
   constructor(onChange) {

@@ -1,3 +1,4 @@
+/// Which program this is.
 #pragma once
 
 namespace prehensile::apps {

@@ -38,7 +38,7 @@ class ChainSearch {
       return;
     }
     for (const double scale : kSteeringMargins) {
-      steering_.push_back({prepare_search(*search.model, search.margin.scaled(scale))});
+      steering_.push_back({with_margin(search, search.margin.scaled(scale))});
     }
   }
 

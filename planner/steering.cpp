@@ -36,14 +36,18 @@ void add_short_line(const Model& model, int index, double room,
   }
 }
 
-void add_point(const Model& model, int index, double room,
-               std::vector<SearchContact>& contacts) {
-  if (room <= 0.0) return;
+/// How far a point may be from the middle of its face; negative if nowhere on it.
+double room_of_point(const Model& model, int index, const Margin& margin) {
+  const PushContact& contact = model.contacts[index];
+  return 0.5 * (contact.b - contact.a).norm() - margin.place;
+}
+
+SearchContact point(const Model& model, int index, double room) {
   SearchContact contact{stick_contact(model, model.contacts[index], 0.0), index, 0.0,
                         -room, room};
   contact.stick.a -= room * contact.stick.t;
   contact.stick.b += room * contact.stick.t;
-  contacts.push_back(contact);
+  return contact;
 }
 
 void add_contacts(const Model& model, const Margin& margin,
@@ -53,7 +57,8 @@ void add_contacts(const Model& model, const Margin& margin,
     const int index = static_cast<int>(i);
     const double half_face = 0.5 * (contact.b - contact.a).norm();
     if (contact.is_point) {
-      add_point(model, index, half_face - margin.place, contacts);
+      const double room = room_of_point(model, index, margin);
+      if (room > 0.0) contacts.push_back(point(model, index, room));
     } else if (contact.half_length >= half_face) {
       add_line(model, index, 0.0, contacts);
     } else {
@@ -174,6 +179,19 @@ SearchModel prepare_search(const Model& model, const Margin& margin) {
   add_contacts(model, margin, search.contacts);
   search.confines = Confines::of(search);
   return search;
+}
+
+SearchModel with_margin(const SearchModel& search, const Margin& margin) {
+  SearchModel other = search;
+  other.margin = margin;
+  if (!margin.is_none()) other.rings.reset();
+  for (SearchContact& contact : other.contacts) {
+    const int index = contact.contact;
+    if (!search.model->contacts[index].is_point) continue;
+    const double room = room_of_point(*search.model, index, margin);
+    contact = point(*search.model, index, std::max(0.0, room));
+  }
+  return other;
 }
 
 PlanarPose pose_along(const FlatState& from, const FlatState& to, double s) noexcept {

@@ -78,6 +78,10 @@ struct SearchModel {
 /// or no torque (point pads). `model` must outlive the result.
 SearchModel prepare_search(const Model& model, const Margin& margin);
 
+/// The same contacts in the same order, at another margin: points that it would drive off
+/// their face stay in its middle.
+SearchModel with_margin(const SearchModel& search, const Margin& margin);
+
 /// One straight move by one contact: kappa = c dtheta / |dp|.
 struct Move {
   int contact = -1;  ///< index in SearchModel::contacts

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "primitives/uncertainty.h"
+#include "problems/random_fixtures.h"
 #include "tests/support/no_heap.h"
 #include "tests/support/random.h"
 
@@ -381,6 +383,32 @@ TEST(Steering, NeedsNoHeap) {
   const long allocations = scope.allocations();
   EXPECT_LE(allocations, 0);
   EXPECT_GT(found, 0);
+}
+
+/// Indices of contacts mean the same at every margin.
+TEST(Steering, KeepsItsContactsAtOtherMargins) {
+  FixtureRange range;
+  range.object = FixtureObject::kConcave;
+  range.pushers = FixturePushers::kPoints;
+  int leave_their_face = 0;
+  for (int i = 0; i < 200; ++i) {
+    const auto problem = random_fixture(range, 5, i);
+    if (!problem) continue;
+    const Model model = prepare(problem->scene);
+    const SearchModel search = prepare_search(model, margin_of(model, usual_box()));
+    for (const double scale : {0.0, 1.75, 3.0}) {
+      const Margin margin = search.margin.scaled(scale);
+      const SearchModel other = with_margin(search, margin);
+      ASSERT_EQ(other.contacts.size(), search.contacts.size());
+      for (std::size_t k = 0; k < search.contacts.size(); ++k) {
+        EXPECT_EQ(other.contacts[k].contact, search.contacts[k].contact);
+        EXPECT_LE(other.contacts[k].place_low, other.contacts[k].place_high);
+      }
+      const std::size_t kept = prepare_search(model, margin).contacts.size();
+      if (scale > 1.0 && kept < search.contacts.size()) ++leave_their_face;
+    }
+  }
+  EXPECT_GT(leave_their_face, 0);
 }
 
 }  // namespace

@@ -396,7 +396,7 @@ TEST(Steering, KeepsItsContactsAtOtherMargins) {
     if (!problem) continue;
     const Model model = prepare(problem->scene);
     const SearchModel search = prepare_search(model, margin_of(model, usual_box()));
-    for (const double scale : {0.0, 1.75, 3.0}) {
+    for (const double scale : {0.0, 3.0, 9.0}) {
       const Margin margin = search.margin.scaled(scale);
       const SearchModel other = with_margin(search, margin);
       ASSERT_EQ(other.contacts.size(), search.contacts.size());

@@ -391,7 +391,7 @@ TEST(Steering, KeepsItsContactsAtOtherMargins) {
   range.object = FixtureObject::kConcave;
   range.pushers = FixturePushers::kPoints;
   int leave_their_face = 0;
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < 40; ++i) {
     const auto problem = random_fixture(range, 5, i);
     if (!problem) continue;
     const Model model = prepare(problem->scene);

@@ -36,6 +36,14 @@ struct BaseStep {
     return (1.0 - rise) * y + rise * y_end + x * z * h * (z * rate - x * rate_end) +
            16.0 * x * x * z * z * bulge;
   }
+
+  /// Rate of that quartic times the step's length.
+  Vec2 change_at(double x) const {
+    const double z = 1.0 - x;
+    const Vec2 bulge = y_middle - 0.5 * (y + y_end) - 0.125 * h * (rate - rate_end);
+    return 6.0 * x * z * (y_end - y) + z * (1.0 - 3.0 * x) * h * rate -
+           x * (2.0 - 3.0 * x) * h * rate_end + 32.0 * x * z * (z - x) * bulge;
+  }
 };
 
 struct DenseStep {
@@ -51,7 +59,8 @@ struct DenseStep {
   bool is_doubled = false;       ///< by `doubled`; then
   bool gave_up = false;          ///< only the embedded error of the whole step is known
   bool is_smooth = true;         ///< errors fall with the method's own order
-  Vec2 embedded = Vec2::Zero();  ///< else: the error of the lower order
+  Vec2 embedded = Vec2::Zero();  ///< of a single step: the error of the lower order,
+  Vec2 defect = Vec2::Zero();    ///< and what its rates are off by, times its length
   Vec2 probe = Vec2::Zero();     ///< a change of state and what it does to the rate
   Vec2 probe_rate = Vec2::Zero();
 
@@ -205,7 +214,14 @@ inline constexpr std::array<double, 2> kQuadratureNodes{0.27639320225002103,
 /// end lacks of the integral of these rates and those at the ends, which is as far from
 /// the truth as the end, in another way. Inside, the state is the integral of the cubic
 /// through the four rates.
-inline void judge(const std::array<Vec2, 2>& rates, DenseStep& step) {
+///
+/// What the rates are off the base step's quartic falls, where the rate is smooth, with a
+/// higher power of the length than its curvature over the step. A kink that bends the rate
+/// more than the rest does is a constant share of both, wherever it lies. Then the error is
+/// random and may be computed small by chance, but is not far above that difference.
+inline void judge(const BaseStep& base, const std::array<Vec2, 2>& rates,
+                  DenseStep& step) {
+  constexpr double kOfCurvature = 0.01;
   constexpr double kRootOf5 = 2.2360679774997897;
   const Vec2 ends = step.rate + step.rate_end;
   const Vec2 nodes = rates[0] + rates[1];
@@ -214,6 +230,11 @@ inline void judge(const std::array<Vec2, 2>& rates, DenseStep& step) {
   const Vec2 bend =
       3.0 * (step.rate - step.rate_end) + 5.0 * kRootOf5 * (rates[0] - rates[1]);
   step.y_middle = 0.5 * (step.y + step.y_end) + step.h / 64.0 * bend;
+  const std::array<Vec2, 2> defects{
+      step.h * rates[0] - base.change_at(kQuadratureNodes[0]),
+      step.h * rates[1] - base.change_at(kQuadratureNodes[1])};
+  step.defect = defects[defects[0].squaredNorm() < defects[1].squaredNorm() ? 1 : 0];
+  step.is_smooth = step.defect.norm() <= kOfCurvature * step.h * (ends - nodes).norm();
 }
 
 }  // namespace prehensile

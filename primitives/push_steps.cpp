@@ -24,9 +24,11 @@ constexpr double kNotStiff = 1.0;
 /// Longest step with an overhanging pad over the wanted spacing of checks.
 constexpr double kOverhangStep = 4.0;
 
-/// Counted over computed error of a single step: with a kink it is random. And the share
-/// of the embedded error that counts where the computed one is small by chance.
+/// Counted over computed error of a single step, and over the defect of one with a kink.
+/// And the share of the embedded error that counts where the computed one is small by
+/// chance.
 constexpr double kDoubt = 5.0;
+constexpr double kDoubtOfKink = 1.0;
 constexpr double kOfEmbedded = 0.05;
 
 /// Embedded over allowed error of a whole stiff step whose halves need not be tried, and
@@ -148,7 +150,7 @@ double PushRun<Instant>::look_at_nodes(const BaseStep& base, const Rate& rate) {
     looks_[i] = {x, mode_margin()};
   }
   instant_.bring_back();
-  if (failed_at == kNever) judge(rates, step_);
+  if (failed_at == kNever) judge(base, rates, step_);
   return failed_at;
 }
 
@@ -157,7 +159,9 @@ template <class Instant>
 double PushRun<Instant>::counted_error() const {
   const double error = length_of(step_.error);
   if (step_.is_doubled) return kDoubtOfStiff * error;
-  return kDoubt * std::max(error, kOfEmbedded * length_of(step_.embedded));
+  const double seen =
+      kDoubt * std::max(error, kOfEmbedded * length_of(step_.embedded));
+  return step_.is_smooth ? seen : std::max(seen, kDoubtOfKink * length_of(step_.defect));
 }
 
 /// What a stiff step's error may be, with what its computation cannot see: a kink between

@@ -42,9 +42,9 @@ const std::vector<std::string>& queries() {
       "sweep SCENE --over gripper.grip_force=1:50:5",
       "sweep SCENE --of push --over travel_mm=1,40 --over pushers.0.friction=0.1,0.9",
       "sweep SCENE --of roll --over pushers.0.friction=0.1,0.9",
-      "cone SCENE --samples 2 --check 10 --points 4",
-      "spread SCENE --travel-mm 3 --samples 4",
-      "contact SCENE --travel-mm 3 --samples 2",
+      "cone SCENE --samples 8 --check 100",
+      "spread SCENE --travel-mm 3 --samples 12",
+      "contact SCENE --travel-mm 3 --samples 4",
       "place SCENE --twist 3,2,5 --grip-force 5,60"};
   return kQueries;
 }

@@ -25,5 +25,8 @@ for problem in "${problems[@]}"; do
       ++pushes; mm = $(NF - 8); deg = $(NF - 7)
       if ($(NF - 2) ^ 2 >= force ^ 2) force = $(NF - 2)
     }
-    END { printf "| `%s` | %d | %s | %s | %s |\n", problem, pushes, mm, deg, force }' "$work/out"
+    END {
+      if (!pushes) { print "error: no push in the report of " problem > "/dev/stderr"; exit 2 }
+      printf "| `%s` | %d | %s | %s | %s |\n", problem, pushes, mm, deg, force
+    }' "$work/out"
 done

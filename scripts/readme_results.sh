@@ -68,7 +68,6 @@ if cmp -s "$new" README.md; then
 fi
 if [ "${1:-}" = --check ]; then
   echo "error: README's table is not what $summary says: run scripts/readme_results.sh" >&2
-  diff README.md "$new" >&2 || true
-  exit 1
+  diff README.md "$new" >&2 || exit 1
 fi
 cp "$new" README.md

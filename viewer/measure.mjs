@@ -2,7 +2,8 @@
 // Chromium with GL drawn by the processor:
 //   node viewer/measure.mjs page.html...
 // First picture: performance.now() after its pixels were read back, so that nothing is still to be
-// drawn. Playing: the time between pictures, each of them read back, too.
+// drawn. Playing: the time between pictures, each of them read back, too. Exit code 1: a page drew
+// nothing or met an error.
 import {spawn} from 'node:child_process';
 import {mkdtempSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
@@ -83,10 +84,13 @@ async function measured(browser, file) {
 
 const ms = (value) => (value === undefined ? '-' : value.toFixed(0));
 const browser = new Browser();
+let failed = false;
 console.log('first ms  median ms  95 % ms  pictures  page');
 for (const file of process.argv.slice(2)) {
   const {first, steps, error} = await measured(browser, file);
+  failed ||= first === undefined || error !== '';
   const at = (share) => steps[Math.floor(share * steps.length)];
   console.log([ms(first).padStart(8), ms(at(0.5)).padStart(9), ms(at(0.95)).padStart(7), String(steps.length).padStart(8), ` ${file}${error && `: ${error}`}`].join('  '));
 }
 await browser.close();
+process.exitCode = failed ? 1 : 0;

@@ -53,15 +53,21 @@ TEST(Slurm, TasksRunOnceAndMergeWaitsForAll) {
   std::ofstream(path / "merge.sh") << merge_script(job);
   const auto start = [&](const char* script, int task) {
     return std::system(("SLURM_ARRAY_TASK_ID=" + std::to_string(task) + " bash " +
-                        shell_word((path / script).string()) + " > /dev/null 2>&1")
+                        shell_word((path / script).string()) + " > " +
+                        shell_word((path / "said").string()) + " 2>&1")
                            .c_str());
   };
-  EXPECT_EQ(start("array.sh", 1), 0);
+  const auto said = [&] {
+    std::ifstream in(path / "said");
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  EXPECT_EQ(start("array.sh", 1), 0) << said();
   EXPECT_NE(start("merge.sh", 0), 0) << "the second shard is missing";
-  EXPECT_EQ(start("array.sh", 1), 0);
-  EXPECT_EQ(start("array.sh", 2), 0);
-  EXPECT_EQ(start("merge.sh", 0), 0);
-  EXPECT_EQ(start("merge.sh", 0), 0);
+  EXPECT_NE(said().find("shard_2.sqlite"), std::string::npos) << said();
+  EXPECT_EQ(start("array.sh", 1), 0) << said();
+  EXPECT_EQ(start("array.sh", 2), 0) << said();
+  EXPECT_EQ(start("merge.sh", 0), 0) << said();
+  EXPECT_EQ(start("merge.sh", 0), 0) << said();
   std::ifstream in(path / "calls");
   std::vector<std::string> calls;
   for (std::string line; std::getline(in, line);) calls.push_back(line);

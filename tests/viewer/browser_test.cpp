@@ -4,7 +4,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <memory>
 #include <regex>
 
 #include <gtest/gtest.h>
@@ -22,26 +21,28 @@ using testing::film_cases;
 using testing::FilmCase;
 using testing::Folder;
 
-/// Everything that a command prints.
-std::string output_of(const std::string& command) {
-  struct Close {
-    void operator()(FILE* pipe) const { pclose(pipe); }
-  };
-  const std::unique_ptr<FILE, Close> pipe(popen(command.c_str(), "r"));
+struct Ended {
   std::string out;
+  int status = -1;  ///< as pclose tells
+};
+
+/// Everything that a command prints, and how it ended.
+Ended run(const std::string& command) {
+  Ended ended;
+  FILE* const pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) return ended;
   std::array<char, 4096> part{};
-  while (pipe) {
-    const std::size_t read = std::fread(part.data(), 1, part.size(), pipe.get());
-    if (read == 0) break;
-    out.append(part.data(), read);
+  while (const std::size_t read = std::fread(part.data(), 1, part.size(), pipe)) {
+    ended.out.append(part.data(), read);
   }
-  return out;
+  ended.status = pclose(pipe);
+  return ended;
 }
 
 std::string browser() {
   for (const char* name : {"chromium", "chromium-browser", "google-chrome"}) {
     const std::string found =
-        output_of(std::string("command -v ") + name + " 2>/dev/null");
+        run(std::string("command -v ") + name + " 2>/dev/null").out;
     if (!found.empty()) return found.substr(0, found.find('\n'));
   }
   return {};
@@ -52,12 +53,14 @@ std::string opened(const std::string& program, const Folder& folder,
                    const std::string& text, const std::string& moment) {
   const fs::path file = folder / "page.html";
   std::ofstream(file) << text;
-  return output_of(
+  const Ended ended = run(
       "timeout 120 '" + program + "' --headless --no-sandbox --no-first-run " +
       "--disable-background-networking --enable-unsafe-swiftshader " +
       "--use-angle=swiftshader --virtual-time-budget=3000 --enable-logging=stderr " +
       "--user-data-dir='" + (folder / "profile").string() + "' --dump-dom 'file://" +
       file.string() + moment + "' 2>&1");
+  EXPECT_EQ(ended.status, 0) << ended.out.substr(0, 500);
+  return ended.out;
 }
 
 /// Opens a page at a moment and looks for anything that went wrong. Returns the

@@ -42,6 +42,10 @@ struct GoalPlaces {
 GoalPlaces goal_places(const Model& model, const Goal& goal,
                        const FlatState& start) noexcept;
 
+/// A plan that ends off the goal, within its tolerances, must cost less than this share
+/// of the best one that does not.
+inline constexpr double kWorthTolerance = 0.9;
+
 /// Members of a goal that fixes place and angle but for its tolerances, at up to 0.9 of
 /// these; nearest to the start first, without whole turns.
 GoalPlaces tolerated_places(const Model& model, const Goal& goal,

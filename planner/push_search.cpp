@@ -88,10 +88,6 @@ bool plan_with_real_pads(const SearchModel& search, const FlatState& from,
   return true;
 }
 
-/// A plan that ends off the goal, within its tolerances, must cost less than this share
-/// of the best one that does not.
-constexpr double kWorthTolerance = 0.9;
-
 /// Over whole discs only, where the search knows the pads: elsewhere plans to the goal
 /// itself fail their exact check often enough. One straight push to a place beside the
 /// goal, or two by way of a crossing of cone lines.

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kPieces = kRunPieces;
-constexpr int kVariables = 3 * kPieces + 5;
+constexpr int kVariables = 3 * kPieces + 6;
 constexpr double kViolation = 1e3;     // cost of what is violated, per m
 constexpr double kFirstWeight = 0.03;  // of the barrier, relative to the cap
 constexpr double kLastWeight = 1e-5;
@@ -35,28 +35,28 @@ struct Gradient {
   }
 };
 
-/// The barrier method: x = (u, z, tau of each piece; depth, du, dz, tau of the last; v),
-/// v being what every law may be violated by.
+/// The barrier method: x = (u, z, tau of each piece; depth, du, share of the goal's arc,
+/// dz, tau of the last; v), v being what every law may be violated by.
 class Barrier {
  public:
   explicit Barrier(const RunProgram& program) : p_(program) {}
 
   void start() {
     x_.setZero();
-    const double u = 0.5 * (p_.goal_u[0] + p_.goal_u[1]);
+    const double u = p_.goal_u;
     const double z = 0.5 * (p_.goal_z[0] + p_.goal_z[1]);
-    const double length = std::hypot(p_.D, u / kPieces, z / kPieces);
+    const double depth = p_.level[kPieces - 1];
     for (int k = 0; k < kPieces; ++k) {
-      const double share = (k + 1.0) / kPieces;
+      const double share = p_.level[k] / depth;
       x_[3 * k] = share * u;
       x_[3 * k + 1] = share * z;
-      x_[3 * k + 2] = 1.5 * length;
+      x_[3 * k + 2] = 1.5 * std::hypot(depth, u, z) * p_.D[k] / depth;
     }
     x_[kRest] = 0.5 * p_.rest;
-    x_[kRest + 3] = p_.rest;
+    x_[kRestTau] = p_.rest;
     x_[kV] = 0.0;
     const double worst = least_slack();
-    x_[kV] = std::max(0.0, -worst) * 1.5 + p_.D;
+    x_[kV] = std::max(0.0, -worst) * 1.5 + depth / kPieces;
   }
 
   /// Steps of Newton's method for one weight; false where rounding stops them.
@@ -86,7 +86,7 @@ class Barrier {
   }
 
   double objective() const {
-    double sum = kViolation * x_[kV] + x_[kRest + 3];
+    double sum = kViolation * x_[kV] + x_[kRestTau];
     for (int k = 0; k < kPieces; ++k) sum += x_[3 * k + 2];
     return sum;
   }
@@ -98,8 +98,16 @@ class Barrier {
   /// t.p after piece k, from the start.
   double lateral(int k) const { return x_[3 * k]; }
 
+  double share() const { return x_[kShare]; }
+  double end_lateral() const { return lateral(kPieces - 1) + x_[kRestU]; }
+  double end_depth() const { return p_.level[kPieces - 1] + x_[kRest]; }
+
  private:
   static constexpr int kRest = 3 * kPieces;
+  static constexpr int kRestU = kRest + 1;
+  static constexpr int kShare = kRest + 2;
+  static constexpr int kRestZ = kRest + 3;
+  static constexpr int kRestTau = kRest + 4;
   static constexpr int kV = kVariables - 1;
 
   /// One constraint g >= 0: its share of the barrier; false where it is violated.
@@ -153,7 +161,7 @@ class Barrier {
     const double du = x_[u] - from_u;
     const double dz = x_[z] - (k > 0 ? x_[z_0] : 0.0);
     const double mean_u = from_u + 0.5 * du;
-    const double D = p_.D;
+    const double D = p_.D[k];
     const double path = std::sqrt(D * D + du * du);
     const double length = std::sqrt(path * path + dz * dz);
     const auto slope_of = [&](double by_du, double by_dz, double by_mean, double by_tau,
@@ -187,10 +195,10 @@ class Barrier {
         const double area = 0.5 * p_.area * (p_.mu * D * D - du * du / p_.mu);
         const double end =
             side * (ratio * dz - p_.h[k] * du - D * (mean_u - p_.end[set][e])) + area +
-            p_.slack[set][e] * x_[tau] + per_path * path + ratio * x_[kV];
+            p_.slack_of(set, e, k) * x_[tau] + per_path * path + ratio * x_[kV];
         if (!take(end,
                   slope_of(-side * p_.h[k] - p_.area * du / p_.mu + per_path * du / path,
-                           side * ratio, -side * D, p_.slack[set][e], ratio),
+                           side * ratio, -side * D, p_.slack_of(set, e, k), ratio),
                   &y.end[set][e])) {
           return false;
         }
@@ -213,12 +221,14 @@ class Barrier {
 
   bool take_rest() {
     PieceMultipliers& y = y_.piece[kPieces];
-    const int depth = kRest, u = kRest + 1, z = kRest + 2, tau = kRest + 3;
+    const int depth = kRest, u = kRestU, z = kRestZ, tau = kRestTau;
     const std::array<double, 3> d{x_[depth], x_[u], x_[z]};
     const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     Gradient slope;
     slope.add(tau, 1.0);
-    for (int i = 0; i < 3; ++i) slope.add(depth + i, -d[i] / length);
+    slope.add(depth, -d[0] / length);
+    slope.add(u, -d[1] / length);
+    slope.add(z, -d[2] / length);
     double y_length = 0.0;
     if (!take(x_[tau] - length, slope, &y_length)) return false;
     add_curvature_of_length(y_length, d, {depth, u, z}, {-1, -1, -1}, length);
@@ -253,34 +263,49 @@ class Barrier {
     const double path = std::hypot(d[0], d[1]);
     Gradient end;
     end.add(kRest, p_.rest_lever(set, e) + per_path * d[0] / path);
-    end.add(kRest + 1, -side * p_.h[kPieces] + per_path * d[1] / path);
-    end.add(kRest + 2, side * ratio);
-    end.add(kRest + 3, p_.rest_slack[set][e]);
+    end.add(kRestU, -side * p_.h[kPieces] + per_path * d[1] / path);
+    end.add(kRestZ, side * ratio);
+    end.add(kRestTau, p_.slack_of(set, e, kPieces));
     end.add(kV, ratio);
     const double slack = side * (ratio * d[2] - p_.h[kPieces] * d[1]) +
                          p_.rest_lever(set, e) * d[0] + per_path * path +
-                         p_.rest_slack[set][e] * x_[kRest + 3] + ratio * x_[kV];
+                         p_.slack_of(set, e, kPieces) * x_[kRestTau] + ratio * x_[kV];
     if (!take(slack, end, &y)) return false;
-    add_curvature_of_length(-per_path * y, {d[0], d[1], 0.0}, {kRest, kRest + 1, -1},
+    add_curvature_of_length(-per_path * y, {d[0], d[1], 0.0}, {kRest, kRestU, -1},
                             {-1, -1, -1}, path);
     return true;
   }
 
   bool take_goal() {
     const int u = kRest - 3, z = kRest - 2;
-    const double end_u = x_[u] + x_[kRest + 1];
-    const double end_z = x_[z] + x_[kRest + 2];
+    const double share = x_[kShare];
+    const double off_u = x_[u] + x_[kRestU] - p_.goal_u - p_.arc_u * share;
+    const double off_depth = x_[kRest] - p_.goal_depth - p_.arc_depth * share;
+    const double end_z = x_[z] + x_[kRestZ];
     for (int e = 0; e < 2; ++e) {
-      const double sign = e == 0 ? 1.0 : -1.0;
-      Gradient by_u, by_z;
-      by_u.add(u, sign);
-      by_u.add(kRest + 1, sign);
-      by_u.add(kV, 1.0);
-      by_z.add(z, sign);
-      by_z.add(kRest + 2, sign);
+      const double side = e == 0 ? -1.0 : 1.0;
+      for (int i = 0; i < 2; ++i) {
+        const double room = p_.goal.slack[i] + p_.goal.slope[i] * share + x_[kV];
+        Gradient by_u, by_depth;
+        by_u.add(u, -side);
+        by_u.add(kRestU, -side);
+        by_u.add(kShare, p_.goal.slope[i] + side * p_.arc_u);
+        by_u.add(kV, 1.0);
+        by_depth.add(kRest, -side);
+        by_depth.add(kShare, p_.goal.slope[i] + side * p_.arc_depth);
+        by_depth.add(kV, 1.0);
+        if (!take(room - side * off_u, by_u, &y_.goal_u[i][e]) ||
+            !take(room - side * off_depth, by_depth, &y_.goal_depth[i][e])) {
+          return false;
+        }
+      }
+      Gradient by_z, by_share;
+      by_z.add(z, -side);
+      by_z.add(kRestZ, -side);
       by_z.add(kV, 1.0);
-      if (!take(sign * (end_u - p_.goal_u[e]) + x_[kV], by_u, &y_.goal_u[e]) ||
-          !take(sign * (end_z - p_.goal_z[e]) + x_[kV], by_z, &y_.goal_z[e])) {
+      by_share.add(kShare, -side);
+      if (!take(side * (p_.goal_z[e] - end_z) + x_[kV], by_z, &y_.goal_z[e]) ||
+          !take(1.0 - side * share, by_share, nullptr)) {
         return false;
       }
     }
@@ -315,7 +340,7 @@ class Barrier {
       gradient_.setZero();
       hessian_.set_zero();
       for (int k = 0; k < kPieces; ++k) gradient_[3 * k + 2] = 1.0;
-      gradient_[kRest + 3] = 1.0;
+      gradient_[kRestTau] = 1.0;
       gradient_[kV] = kViolation;
     }
     const bool inside = take_all();
@@ -361,9 +386,14 @@ bool run_path(const RunQuestion& question, RunPath& path) noexcept {
     if (dual_bound(program, barrier.multipliers()) >= question.cap) return false;
   }
   const RunLaw& law = question.laws->contacts[question.contact];
+  const auto place = [&](double depth, double lateral) {
+    return Vec2(question.start - depth * law.n + lateral * law.t);
+  };
   for (int k = 0; k + 1 < kPieces; ++k) {
-    path[k] = question.start - (k + 1) * program.D * law.n + barrier.lateral(k) * law.t;
+    path.places[k] = place(program.level[k], barrier.lateral(k));
   }
+  path.end = place(barrier.end_depth(), barrier.end_lateral());
+  path.share = barrier.share();
   return barrier.violation() <= kMet;
 }
 

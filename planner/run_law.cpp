@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 
@@ -24,13 +25,23 @@ struct Edge {
 
 using Cells = std::vector<SectionCell>;
 
+/// The force of the pads that goes farthest towards G, over F.
+double helpful_force(double G, const SectionCell& cell) {
+  return G > 0.0 ? std::hypot(1.0, cell.deviation) * cell.drag_high / cell.sigma_low
+                 : cell.drag_low / cell.sigma_high;
+}
+
 /// Least angle of a force from the edge for which w.f >= G is possible.
 double lean(double G, double w, const SectionCell& cell) {
   if (G == 0.0) return 0.0;
-  const double force =
-      G > 0.0 ? std::hypot(1.0, cell.deviation) * cell.drag_high / cell.sigma_low
-              : cell.drag_low / cell.sigma_high;
-  return std::asin(std::clamp(G / (w * force), -1.0, 1.0));
+  return std::asin(std::clamp(G / (w * helpful_force(G, cell)), -1.0, 1.0));
+}
+
+/// The pads are too weak at such a rate of turning for what the edge asks for: nothing
+/// sticks.
+bool asks_too_much(const Edge& edge, const SectionCell& cell) {
+  return edge.G > edge.w * helpful_force(edge.G, cell) ||
+         edge.G_other > edge.w * helpful_force(edge.G_other, cell);
 }
 
 /// Gravity may let the force pass round behind the cone, from edge to edge.
@@ -42,7 +53,7 @@ bool passes_behind(const Edge& edge, double from, double other) {
 /// two edges allow. The force is inside its edge by at least lean(G), and no farther from
 /// it than the other edge allows; the motion is within the deviation of the force.
 double least_advance(const Cells& cells, const Edge& edge) {
-  double least = kInfinity;
+  double least = edge.w_wide;
   for (const SectionCell& cell : cells) {
     const double from = lean(edge.G, edge.w, cell);
     const double other = lean(edge.G_other, edge.w, cell);
@@ -59,8 +70,10 @@ double least_advance(const Cells& cells, const Edge& edge) {
         least, edge.w_wide * sine / (sine < 0.0 ? cell.sigma_low : cell.sigma_high));
   }
   // Turning on the spot, beyond the cells, gravity may drag the object out of the cone.
-  const double beyond = edge.w_wide / cells.back().sigma_high;
-  return edge.G < 0.0 ? std::min(least, -beyond) : least;
+  const bool spins = edge.G <= 0.0 && edge.G_other <= 0.0;
+  const double beyond =
+      spins && edge.G < 0.0 ? edge.w_wide / cells.back().sigma_high : 0.0;
+  return beyond > 0.0 ? std::min(least, -beyond) : least;
 }
 
 /// How far along the motion, at most, the direction of a motion leans from the normal:
@@ -128,25 +141,20 @@ double deviation_rate(const Cells& cells) {
   return most;
 }
 
-/// Fills the cone; returns what a motion outside of it costs, see greatest_detour.
-double set_cone(const Cells& cells, double mu, double widening, const Vec2& gamma,
-                RunLaw& law) {
-  const double half_angle = std::atan(mu);
-  law.mu = std::tan(half_angle + widening);
-  law.jacobian = 2.0 * law.mu;
+/// The edges of a contact whose cone is widened, and what gravity asks of them.
+std::array<Edge, 2> edges_of(double mu, double widening, const Vec2& gamma,
+                             const RunLaw& law) {
   std::array<Edge, 2> edges;
   for (int k = 0; k < 2; ++k) {
     const Vec2 side = k == 0 ? law.t : Vec2(-law.t);
-    law.w[k] = law.mu * law.n + side;
-    edges[k] = {half_angle,
+    edges[k] = {std::atan(mu),
                 widening,
                 std::hypot(1.0, mu),
                 law.w[k].norm(),
                 (mu * law.n + side).dot(gamma),
                 (mu * law.n - side).dot(gamma)};
-    law.back[k] = -least_advance(cells, edges[k]);
   }
-  return greatest_detour(cells, edges);
+  return edges;
 }
 
 /// Slow turning is charged with so much more per dT than it has to, which leaves less per
@@ -166,8 +174,8 @@ void set_end(const Cells& cells, const Model& model, double ratio, bool is_slow,
   result.place += end.side * c * beyond * std::hypot(1.0, law.mu) * law.t;
 }
 
-void set_ends(const PadSection& section, const Model& model, const PushContact& contact,
-              double detour, const Vec2& gamma, RunLaw& law) {
+void set_ends(const PadSection& section, const Cells& cells, const Model& model,
+              const PushContact& contact, double detour, const Vec2& gamma, RunLaw& law) {
   for (int set = 0; set < RunLaw::kSets; ++set) {
     const bool is_slow = set == 0;
     const double ratio = is_slow ? section.slow_ratio : section.fast_ratio;
@@ -175,10 +183,29 @@ void set_ends(const PadSection& section, const Model& model, const PushContact& 
       EndLaw& end = law.end[set][k];
       end.place = k == 0 ? contact.b : contact.a;
       const double g = cross(model.p_OCom - end.place, gamma);
-      set_end(section.cells, model, ratio, is_slow, detour, {k == 0 ? 1.0 : -1.0, g}, law,
-              end);
+      set_end(cells, model, ratio, is_slow, detour, {k == 0 ? 1.0 : -1.0, g}, law, end);
     }
   }
+}
+
+/// The law of a contact, from the motions that its edges leave.
+RunLaw run_law(const Model& model, const PushContact& contact, const PadSection& section,
+               double widening) {
+  RunLaw law;
+  law.n = contact.n;
+  law.t = contact.t;
+  law.mu = std::tan(std::atan(contact.mu) + widening);
+  law.jacobian = 2.0 * law.mu;
+  law.w = {law.mu * law.n + law.t, law.mu * law.n - law.t};
+  const Vec2 gamma = model.mass / model.F * contact.g_O;
+  const std::array<Edge, 2> edges = edges_of(contact.mu, widening, gamma, law);
+  Cells cells;
+  std::copy_if(
+      section.cells.begin(), section.cells.end(), std::back_inserter(cells),
+      [&edges](const SectionCell& cell) { return !asks_too_much(edges[0], cell); });
+  for (int k = 0; k < 2; ++k) law.back[k] = -least_advance(cells, edges[k]);
+  set_ends(section, cells, model, contact, greatest_detour(cells, edges), gamma, law);
+  return law;
 }
 
 /// Greatest distance of a place of the object from another.
@@ -211,13 +238,7 @@ RunLaws run_laws(const Model& model) {
   contacts.reserve(model.contacts.size());
   for (const PushContact& contact : model.contacts) {
     if (std::atan(contact.mu) + widening > kWidestCone) return laws;
-    RunLaw law;
-    law.n = contact.n;
-    law.t = contact.t;
-    const Vec2 gamma = model.mass / model.F * contact.g_O;
-    const double detour = set_cone(section.cells, contact.mu, widening, gamma, law);
-    set_ends(section, model, contact, detour, gamma, law);
-    contacts.push_back(law);
+    contacts.push_back(run_law(model, contact, section, widening));
   }
   laws.contacts = std::move(contacts);
   return laws;

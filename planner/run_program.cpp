@@ -62,13 +62,38 @@ double least_of_step(double s, double D, double a, double q, double most) {
   return value - std::max(slope * (x + most), slope * (x - most));
 }
 
+/// Depths below the start at which a run is cut: as far from each other as the corners of
+/// the outline let them, which a piece could cut off. Each goes to the level next to it,
+/// on the narrow side.
+void set_levels(const std::vector<Vec2>& outline, const RunLaw& law, double start,
+                double depth, std::array<double, kRunPieces>& level) {
+  constexpr double kBeside = 2e-6;  // [m]
+  const double D = depth / kRunPieces;
+  for (int k = 0; k < kRunPieces; ++k) level[k] = (k + 1) * D;
+  const auto width_at = [&](double at) {
+    double low = 0.0, high = 0.0;
+    borders_at(outline, law, at, low, high);
+    return high - low;
+  };
+  for (const Vec2& corner : outline) {
+    const double at = -law.n.dot(corner);
+    const int k = static_cast<int>(std::lround((at - start) / D)) - 1;
+    if (k < 0 || k + 1 >= kRunPieces) continue;
+    const bool narrow_before = width_at(at - kBeside) <= width_at(at + kBeside);
+    const double moved = at - start + (narrow_before ? -kBeside : kBeside);
+    const double before = k > 0 ? level[k - 1] : 0.0;
+    if (moved - before > 0.1 * D && level[k + 1] - moved > 0.1 * D) level[k] = moved;
+  }
+}
+
 /// What the multipliers of the ends of a piece add up to.
 struct EndSums {
   double difference = 0.0, turning = 0.0, both = 0.0, per_path = 0.0;
   double length = 1.0;  // multiplier of the length
 };
 
-EndSums sums_of(const RunProgram& p, const PieceMultipliers& m, const Pairs& slack) {
+EndSums sums_of(const RunProgram& p, const RunMultipliers& multipliers, int piece) {
+  const PieceMultipliers& m = multipliers.piece[piece];
   EndSums sums;
   sums.length -= p.back[0] * m.edge[0] + p.back[1] * m.edge[1];
   for (int set = 0; set < RunLaw::kSets; ++set) {
@@ -77,20 +102,45 @@ EndSums sums_of(const RunProgram& p, const PieceMultipliers& m, const Pairs& sla
     sums.turning += p.ratio[set] * (y[0] - y[1]);
     sums.both += y[0] + y[1];
     sums.per_path -= p.per_path[set][0] * y[0] + p.per_path[set][1] * y[1];
-    sums.length -= slack[set][0] * y[0] + slack[set][1] * y[1];
+    sums.length -= p.slack_of(set, 0, piece) * y[0] + p.slack_of(set, 1, piece) * y[1];
   }
   return sums;
 }
 
+/// Coefficients of where a run ends, and the least of what is left of the goal.
+struct EndTerms {
+  double u = 0.0, depth = 0.0, least = 0.0;
+};
+
+EndTerms terms_of_goal(const RunProgram& p, const RunMultipliers& y) {
+  EndTerms terms;
+  double share = 0.0;
+  for (int i = 0; i < 2; ++i) {
+    for (int e = 0; e < 2; ++e) {
+      const double side = e == 0 ? -1.0 : 1.0;
+      const double of_u = y.goal_u[i][e], of_depth = y.goal_depth[i][e];
+      terms.u += side * of_u;
+      terms.depth += side * of_depth;
+      terms.least -= of_u * (p.goal.slack[i] + side * p.goal_u) +
+                     of_depth * (p.goal.slack[i] + side * p.goal_depth);
+      share -= of_u * (p.goal.slope[i] + side * p.arc_u) +
+               of_depth * (p.goal.slope[i] + side * p.arc_depth);
+    }
+  }
+  terms.least -= std::abs(share);
+  return terms;
+}
+
 /// Least value of the last piece, which is homogeneous in its steps but for its depth.
-double least_of_rest(const RunProgram& p, const PieceMultipliers& m, double later,
+double least_of_rest(const RunProgram& p, const RunMultipliers& y, const EndTerms& goal,
                      double turn) {
-  const EndSums sums = sums_of(p, m, p.rest_slack);
-  double depth = -p.mu * (m.edge[0] + m.edge[1]);
+  const PieceMultipliers& m = y.piece[kRunPieces];
+  const EndSums sums = sums_of(p, y, kRunPieces);
+  double depth = goal.depth - p.mu * (m.edge[0] + m.edge[1]);
   for (int set = 0; set < RunLaw::kSets; ++set) {
     for (int k = 0; k < 2; ++k) depth -= p.rest_lever(set, k) * m.end[set][k];
   }
-  const double u = m.edge[0] - m.edge[1] + p.h[kRunPieces] * sums.difference + later;
+  const double u = m.edge[0] - m.edge[1] + p.h[kRunPieces] * sums.difference + goal.u;
   const double z = turn - sums.turning;
   if (sums.length < std::abs(z)) return -kInfinity;
   const double s = std::sqrt(sums.length * sums.length - z * z) + sums.per_path;
@@ -101,27 +151,27 @@ double least_of_rest(const RunProgram& p, const PieceMultipliers& m, double late
 /// Value of the dual; -infinity outside its domain.
 double dual_value(const RunProgram& p, const RunMultipliers& y) {
   // What a step of u does to all that comes after its piece.
-  double later = y.goal_u[1] - y.goal_u[0];
+  const EndTerms goal = terms_of_goal(p, y);
+  double later = goal.u;
   const double turn = y.goal_z[1] - y.goal_z[0];
-  double value = y.goal_u[0] * p.goal_u[0] - y.goal_u[1] * p.goal_u[1] +
-                 y.goal_z[0] * p.goal_z[0] - y.goal_z[1] * p.goal_z[1] +
-                 least_of_rest(p, y.piece[kRunPieces], later, turn);
+  double value = goal.least + y.goal_z[0] * p.goal_z[0] - y.goal_z[1] * p.goal_z[1] +
+                 least_of_rest(p, y, goal, turn);
   for (int i = kRunPieces - 1; i >= 0; --i) {
     const PieceMultipliers& m = y.piece[i];
-    const EndSums sums = sums_of(p, m, p.slack);
+    const EndSums sums = sums_of(p, y, i);
+    const double D = p.D[i];
     later += m.border[1] - m.border[0];
-    const double u =
-        m.edge[0] - m.edge[1] + (p.h[i] + 0.5 * p.D) * sums.difference + later;
+    const double u = m.edge[0] - m.edge[1] + (p.h[i] + 0.5 * D) * sums.difference + later;
     const double z = turn - sums.turning;
-    later += p.D * sums.difference;
+    later += D * sums.difference;
     if (sums.length < std::abs(z)) return -kInfinity;
     const double s = std::sqrt(sums.length * sums.length - z * z) + sums.per_path;
-    value += least_of_step(s, p.D, u, 0.5 * p.area * sums.both / p.mu, p.widest_step) -
-             (m.edge[0] + m.edge[1]) * p.mu * p.D -
-             sums.both * 0.5 * p.area * p.mu * p.D * p.D + m.border[0] * p.border_low[i] -
+    value += least_of_step(s, D, u, 0.5 * p.area * sums.both / p.mu, p.widest_step[i]) -
+             (m.edge[0] + m.edge[1]) * p.mu * D -
+             sums.both * 0.5 * p.area * p.mu * D * D + m.border[0] * p.border_low[i] -
              m.border[1] * p.border_high[i];
     for (int set = 0; set < RunLaw::kSets; ++set) {
-      value += p.D * (m.end[set][1] * p.end[set][1] - m.end[set][0] * p.end[set][0]);
+      value += D * (m.end[set][1] * p.end[set][1] - m.end[set][0] * p.end[set][0]);
     }
   }
   return value;
@@ -137,7 +187,8 @@ RunMultipliers scaled(const RunMultipliers& y, double factor) {
     scale(piece.border);
     for (Pair& end : piece.end) scale(end);
   }
-  scale(result.goal_u);
+  for (Pair& pair : result.goal_u) scale(pair);
+  for (Pair& pair : result.goal_depth) scale(pair);
   scale(result.goal_z);
   return result;
 }
@@ -148,50 +199,79 @@ RunProgram::RunProgram(const RunQuestion& question) {
   const RunLaw& law = question.laws->contacts[question.contact];
   const double start = -law.n.dot(question.start);
   const double u_start = law.t.dot(question.start);
-  const double reach = question.goal.reach(law.n) + kRounding;
-  const double last = -law.n.dot(question.goal.centre) - reach;
+  goal = question.goal;
+  for (double& slack_of_goal : goal.slack) slack_of_goal += kRounding;
+  const double reach = goal.reach(law.n);
+  const double last = -law.n.dot(goal.centre) - reach;
   is_ahead = last > start + kShallowest;
   if (!is_ahead) return;
   mu = law.mu;
-  D = (last - start) / kRunPieces;
   rest = 2.0 * reach;
   back = law.back;
   area = question.chords_only ? 0.0 : 1.0;
-  const double most_back = std::max({0.0, back[0], back[1]});
-  const double longest = std::max(D, question.cap - (kRunPieces - 1) * D);
-  widest_step = mu * D + most_back * longest;
-  const double widest_rest = mu * rest + most_back * longest;
-  const double run_back =
-      area * running_back(law, mu * D + widest_step, mu * D + widest_step, longest);
-  const double rest_back =
-      area * running_back(law, mu * rest + widest_rest, mu * rest + widest_rest, longest);
-  for (int set = 0; set < RunLaw::kSets; ++set) {
-    ratio[set] = question.laws->C[set] / question.c;
-    for (int k = 0; k < 2; ++k) {
-      const EndLaw& of_end = law.end[set][k];
-      const double own = of_end.per_travel + of_end.slope * question.laws->reach;
-      end[set][k] = law.t.dot(of_end.place) - u_start;
-      slack[set][k] = own + run_back;
-      rest_slack[set][k] = own + rest_back;
-      per_path[set][k] = of_end.per_path;
-    }
-  }
+  set_levels(*question.outline, law, start, last - start, level);
+  set_laws(question, law, u_start);
   const double face = law.n.dot(law.end[0][0].place);
   for (int k = 0; k < kRunPieces; ++k) {
-    h[k] = -(start + (k + 0.5) * D) - face;
-    borders_at(*question.outline, law, start + (k + 1) * D, border_low[k],
-               border_high[k]);
+    h[k] = -(start + level[k] - 0.5 * D[k]) - face;
+    borders_at(*question.outline, law, start + level[k], border_low[k], border_high[k]);
     border_low[k] -= u_start + kRounding;
     border_high[k] -= u_start - kRounding;
   }
   h[kRunPieces] = -last - face;
-  const double u_goal = law.t.dot(question.goal.centre) - u_start;
-  const double u_reach = question.goal.reach(law.t) + kRounding;
-  goal_u = {u_goal - u_reach, u_goal + u_reach};
-  rest_u = {std::max(border_low[kRunPieces - 1], goal_u[0] - widest_rest),
-            std::min(border_high[kRunPieces - 1], goal_u[1] + widest_rest)};
+  goal_u = law.t.dot(goal.centre) - u_start;
+  arc_u = law.t.dot(goal.arc);
+  goal_depth = reach;
+  arc_depth = -law.n.dot(goal.arc);
+  const double u_reach = goal.reach(law.t);
+  rest_u = {std::max(border_low[kRunPieces - 1], goal_u - u_reach - widest_rest),
+            std::min(border_high[kRunPieces - 1], goal_u + u_reach + widest_rest)};
   goal_z = {question.c * question.turn_low - kRounding,
             question.c * question.turn_high + kRounding};
+}
+
+/// The laws of the contact in the units of the program; what a piece may run back by
+/// depends on the travel that all others leave.
+void RunProgram::set_laws(const RunQuestion& question, const RunLaw& law,
+                          double u_start) {
+  const double depth = level[kRunPieces - 1];
+  const double most_back = std::max({0.0, back[0], back[1]});
+  const auto widest = [&](double D_of_piece, double others) {
+    return mu * D_of_piece + most_back * std::max(D_of_piece, question.cap - others);
+  };
+  const auto back_of = [&](double D_of_piece, double others) {
+    const double advance = mu * D_of_piece + widest(D_of_piece, others);
+    return area * running_back(law, advance, advance,
+                               std::max(D_of_piece, question.cap - others));
+  };
+  for (int k = 0; k < kRunPieces; ++k) {
+    D[k] = level[k] - (k > 0 ? level[k - 1] : 0.0);
+    widest_step[k] = widest(D[k], depth - D[k]);
+    run_back[k] = back_of(D[k], depth - D[k]);
+  }
+  widest_rest = widest(rest, depth);
+  run_back[kRunPieces] = back_of(rest, depth);
+  for (int set = 0; set < RunLaw::kSets; ++set) {
+    ratio[set] = question.laws->C[set] / question.c;
+    for (int k = 0; k < 2; ++k) {
+      const EndLaw& of_end = law.end[set][k];
+      end[set][k] = law.t.dot(of_end.place) - u_start;
+      slack[set][k] = of_end.per_travel + of_end.slope * question.laws->reach;
+      per_path[set][k] = of_end.per_path;
+    }
+  }
+}
+
+double GoalArc::widest() const {
+  const auto at = [this](double share) {
+    return std::min(slack[0] + slope[0] * share, slack[1] + slope[1] * share);
+  };
+  double most = std::max({0.0, at(-1.0), at(1.0)});
+  if (slope[0] != slope[1]) {
+    const double crossing = (slack[1] - slack[0]) / (slope[0] - slope[1]);
+    if (std::abs(crossing) < 1.0) most = std::max(most, at(crossing));
+  }
+  return most;
 }
 
 /// Multipliers that are not quite optimal, or those of a goal out of reach, may lie

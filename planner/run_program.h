@@ -20,7 +20,10 @@ struct PieceMultipliers {
 /// All multipliers; the last piece is the rest of the way, into the goal's box.
 struct RunMultipliers {
   std::array<PieceMultipliers, kRunPieces + 1> piece;
-  Pair goal_u{}, goal_z{};
+  /// Of the goal's slacks, on both sides of its arc; of the depth of the last piece; and
+  /// of z.
+  std::array<Pair, 2> goal_u{}, goal_depth{};
+  Pair goal_z{};
 };
 
 /// Numbers of the program: u and z = c theta counted from 0 at the start.
@@ -30,24 +33,38 @@ struct RunProgram {
   bool is_ahead = false;
   double mu = 0.0;
   double area = 1.0;  // 1: paths may leave the chord, 0: they are the chords
-  double D = 0.0;     // [m] depth of a piece
-  double rest = 0.0;  // [m] greatest depth of the last
+  std::array<double, kRunPieces> level;  // [m] depth below the start after each piece
+  std::array<double, kRunPieces> D;      // [m] depth of each piece
+  double rest = 0.0;                     // [m] greatest depth of the last
   Pair back{};
-  std::array<double, RunLaw::kSets> ratio{};  // C / c
-  Pairs end{};                                // u_low, u_high
-  Pairs slack{}, rest_slack{};                // of the ends, per tau
+  std::array<double, RunLaw::kSets> ratio{};    // C / c
+  Pairs end{};                                  // u_low, u_high
+  Pairs slack{};                                // of the ends, per tau; and because a
+  std::array<double, kRunPieces + 1> run_back;  // piece may run back
   Pairs per_path{};                      // and per length of the path of the finger axis
   std::array<double, kRunPieces + 1> h;  // the last: at its begin
   std::array<double, kRunPieces> border_low, border_high;  // of u after each piece
-  Pair rest_u{};  // least and greatest u where the last piece begins
-  Pair goal_u{}, goal_z{};
-  double widest_step = 0.0;  // [m] of u in a piece
+  Pair rest_u{};                     // least and greatest u where the last piece begins
+  double widest_rest = 0.0;          // [m] of u in the last piece
+  GoalArc goal;                      // its slacks a little wider
+  double goal_u = 0.0, arc_u = 0.0;  // of its line
+  double goal_depth = 0.0, arc_depth = 0.0;  // the same, from the last level
+  Pair goal_z{};
+  std::array<double, kRunPieces> widest_step;  // [m] of u in a piece
+
+  /// Slack of end k per tau of a piece.
+  double slack_of(int set, int k, int piece) const {
+    return slack[set][k] + run_back[piece];
+  }
 
   /// Coefficient of the depth of the last piece in a law of end k.
   double rest_lever(int set, int k) const {
     return (k == 0 ? end[set][0] - rest_u[0] : rest_u[1] - end[set][1]) +
            0.5 * area * mu * rest;
   }
+
+ private:
+  void set_laws(const RunQuestion& question, const RunLaw& law, double u_start);
 };
 
 /// A bound on the least travel from these multipliers, whatever they are; -infinity where

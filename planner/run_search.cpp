@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "planner/bounds.h"
 #include "planner/push_search.h"
@@ -15,8 +16,9 @@ constexpr std::array<int, 7> kStrides = {12, 8, 6, 4, 3, 2, 1};  // of the way-p
 /// The laws are a little wider than what sticks; so far inwards are their ends moved,
 /// over c, until a chain follows.
 constexpr std::array<double, 3> kInwards = {0.0, 0.7, 1.5};
-constexpr double kPerPush = 2e-3;        // of J, that one push less is worth
-constexpr double kDearest = 5.0;         // J of plans looked for
+constexpr double kPerPush = 2e-3;  // of J, that one push less is worth
+constexpr double kDearest = 5.0;   // J of plans looked for
+constexpr double kUsedTolerance = 0.9;
 constexpr std::int64_t kProgram = 2000;  // work of one convex program, in stick tests
 
 static_assert(kRunPieces <= Chain::kMaxLegs);
@@ -43,9 +45,8 @@ RunLaw instant_law(const StickContact& stick, const Margin& margin) {
 
 class RunSearch {
  public:
-  RunSearch(const SearchModel& search, const FlatState& start, const GoalPlaces& goals,
-            double to_beat, Work& work)
-      : search_(search), start_(start), goals_(goals), to_beat_(to_beat), work_(work) {
+  RunSearch(const SearchModel& search, const FlatState& start, double to_beat, Work& work)
+      : search_(search), start_(start), to_beat_(to_beat), work_(work) {
     if (search.rings) laws_ = run_laws(*search.model);
     if (!laws_.empty()) return;
     const double c = search.model->c;
@@ -55,30 +56,70 @@ class RunSearch {
     }
   }
 
-  std::optional<FoundChain> run(const Limits& limits) {
-    const int contacts = static_cast<int>(search_.contacts.size());
-    for (int place = 0; place < goals_.count; ++place) {
-      for (int angle = 0; angle < goals_.places[place].count; ++angle) {
-        for (int contact = 0; contact < contacts && !limits.reached(); ++contact) {
-          try_contact(contact, place, angle);
-        }
+  std::optional<Chain> run(const Goal& goal, const Limits& limits) {
+    const GoalPlaces goals = goal_places(*search_.model, goal, start_);
+    for (int i = 0; i < goals.count; ++i) {
+      const GoalPlace& place = goals.places[i];
+      for (int j = 0; j < place.count; ++j) {
+        try_contacts({{.centre = place.p_OF}, place.theta[j] - start_.theta}, limits);
       }
+    }
+    if (!goal.x || !goal.y || !goal.theta) return found_;
+    to_beat_ *= kWorthTolerance;
+    const int windings = goal.theta_is == ThetaMeaning::kNumber ? 1 : 3;
+    for (int k = 0; k < windings; ++k) {
+      const double whole = 2.0 * std::numbers::pi * (k == 2 ? -1 : k);
+      try_contacts(ends_within_tolerance(goal, whole), limits);
     }
     return found_;
   }
 
  private:
-  void try_contact(int contact, int place, int angle) {
-    const GoalPlace& goal = goals_.places[place];
-    const double turn = goal.theta[angle] - start_.theta;
+  /// Ends at one angle, or at those between which the goal's tolerances let it lie.
+  struct Ends {
+    GoalArc arc;
+    double turn = 0.0, half = 0.0;  // [rad] from the start: the middle, and to both sides
+  };
+
+  /// Ends that use up to kUsedTolerance of the tolerances; a turn of the angle moves the
+  /// place along an arc.
+  Ends ends_within_tolerance(const Goal& goal, double whole_turns) const {
+    const bool shared = goal.test == GoalTest::kWeightedSum;
+    Ends ends;
+    const double angle = nearest_angle(goal, start_.theta) + whole_turns;
+    ends.turn = angle - start_.theta;
+    ends.half =
+        kUsedTolerance * (shared ? goal.position_tolerance / goal.characteristic_length
+                                 : goal.angle_tolerance);
+    ends.arc.centre = -rotated(-angle, {*goal.x, *goal.y});
+    ends.arc.arc = -ends.half * perp(ends.arc.centre);
+    const double bulge = 0.5 * ends.arc.centre.norm() * ends.half * ends.half;
+    const double used = kUsedTolerance * goal.position_tolerance;
+    ends.arc.slack.fill(used - bulge);
+    if (shared) ends.arc.slope = {-used, used};
+    return ends;
+  }
+
+  void try_contacts(const Ends& ends, const Limits& limits) {
+    const int contacts = static_cast<int>(search_.contacts.size());
+    for (int contact = 0; contact < contacts && !limits.reached(); ++contact) {
+      try_contact(contact, ends);
+    }
+  }
+
+  void try_contact(int contact, const Ends& ends) {
     const double L = search_.model->L;
-    const Vec2 d = goal.p_OF - start_.p_OF;
+    const double c = search_.model->c;
+    const Vec2 d = ends.arc.centre - start_.p_OF;
+    const double off = ends.arc.arc.norm() + ends.arc.widest();
     const double cap = (std::min(to_beat_, kDearest) - 1.0) * L;
     const RunLaw& law = laws_.contacts[contact];
     const auto is_behind = [&](int k) {
-      return law.back[k] <= 0.0 && law.w[k].dot(-d) < -law.back[k] * d.norm();
+      return law.back[k] <= 0.0 &&
+             law.w[k].dot(-d) < -law.back[k] * d.norm() - 2.0 * off * law.w[k].norm();
     };
-    const bool near = std::hypot(d.norm(), search_.model->c * turn) < cap;
+    const double least_turn = std::max(0.0, std::abs(ends.turn) - ends.half);
+    const bool near = std::hypot(std::max(0.0, d.norm() - off), c * least_turn) < cap;
     if (!near || law.mu <= 0.0 || is_behind(0) || is_behind(1)) return;
     const double before = to_beat_;
     for (const double inwards : kInwards) {
@@ -87,67 +128,65 @@ class RunSearch {
       laws.reach = laws_.reach;
       laws.contacts = {law};
       for (auto& set : laws.contacts[0].end) {
-        set[0].place -= inwards * search_.model->c * law.t;
-        set[1].place += inwards * search_.model->c * law.t;
+        set[0].place -= inwards * c * law.t;
+        set[1].place += inwards * c * law.t;
       }
       work_.other += kProgram;
       RunPath path;
       if (!run_path({.laws = &laws,
                      .contact = 0,
-                     .c = search_.model->c,
+                     .c = c,
                      .outline = &search_.model->pad_face,
                      .start = start_.p_OF,
-                     .goal = {.centre = goal.p_OF},
-                     .turn_low = turn,
-                     .turn_high = turn,
+                     .goal = ends.arc,
+                     .turn_low = ends.turn - ends.half,
+                     .turn_high = ends.turn + ends.half,
                      .cap = cap,
                      .chords_only = true},
                     path)) {
         return;
       }
-      for (const int stride : kStrides) follow(contact, path, stride, place, angle);
+      if (ends.half == 0.0) path.end = ends.arc.centre;
+      const double turn = ends.turn + path.share * ends.half;
+      for (const int stride : kStrides) follow(contact, path, stride, turn);
       if (to_beat_ < before) return;
     }
   }
 
-  void follow(int contact, const RunPath& path, int stride, int place, int angle) {
-    const GoalPlace& goal = goals_.places[place];
-    Chain& chain = scratch_.chain;
+  void follow(int contact, const RunPath& path, int stride, double turn) {
+    Chain& chain = scratch_;
     chain.count = kRunPieces / stride;
     Stop from{start_.p_OF, true};
     for (int k = 0; k < chain.count; ++k) {
       const bool last = k + 1 == chain.count;
-      const Stop to = last ? Stop{goal.p_OF, true} : Stop{path[(k + 1) * stride - 1]};
+      const Stop to =
+          last ? Stop{path.end, true} : Stop{path.places[(k + 1) * stride - 1]};
       if (!make_leg({search_}, contact, from, to, work_, chain.legs[k])) return;
       from = to;
     }
-    const double dtheta = goal.theta[angle] - start_.theta;
     const double charge = kPerPush * chain.count;
-    if (!solve_chain(search_, dtheta, chain) || chain.cost + charge >= to_beat_) return;
-    if (!make_chain_stick(search_, start_.theta, dtheta, chain, work_)) return;
+    if (!solve_chain(search_, turn, chain) || chain.cost + charge >= to_beat_) return;
+    if (!make_chain_stick(search_, start_.theta, turn, chain, work_)) return;
     if (chain.cost + charge >= to_beat_) return;
     to_beat_ = chain.cost + charge;
-    scratch_.place = place;
-    scratch_.angle = angle;
     found_ = scratch_;
   }
 
   const SearchModel& search_;
   const FlatState& start_;
-  const GoalPlaces& goals_;
   double to_beat_;
   Work& work_;
   RunLaws laws_;
-  FoundChain scratch_;
-  std::optional<FoundChain> found_;
+  Chain scratch_;
+  std::optional<Chain> found_;
 };
 
 }  // namespace
 
-std::optional<FoundChain> search_runs(const SearchModel& search, const FlatState& start,
-                                      const GoalPlaces& goals, double to_beat,
-                                      const Limits& limits, Work& work) {
-  return RunSearch(search, start, goals, to_beat, work).run(limits);
+std::optional<Chain> search_runs(const SearchModel& search, const FlatState& start,
+                                 const Goal& goal, double to_beat, const Limits& limits,
+                                 Work& work) {
+  return RunSearch(search, start, to_beat, work).run(goal, limits);
 }
 
 void improve_by_run(const SearchModel& search, const Limits& limits, Work& work,
@@ -161,11 +200,12 @@ void improve_by_run(const SearchModel& search, const Limits& limits, Work& work,
   account(model, plan);
   if (plan.cost <= kGoodEnough * guide_bound(model, plan.start, goal)) return;
   const FlatState from = flat_state(plan.start);
-  const GoalPlaces goals = goal_places(model, goal, from);
-  const auto found = search_runs(search, from, goals, plan.cost, limits, work);
+  const auto found = search_runs(search, from, goal, plan.cost, limits, work);
   if (!found) return;
-  plan.pushes.clear();
-  append_chain(search, from, found->chain, plan);
+  Plan better = plan;
+  better.pushes.clear();
+  append_chain(search, from, *found, better);
+  if (reaches(goal, better.goal)) plan = std::move(better);
 }
 
 }  // namespace prehensile

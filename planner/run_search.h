@@ -7,10 +7,11 @@
 namespace prehensile {
 
 /// Solves the convex program of run_bound.h for each contact, goal place and angle that
-/// may beat `to_beat`, and follows the way-points with as few pushes as lose little.
-std::optional<FoundChain> search_runs(const SearchModel& search, const FlatState& start,
-                                      const GoalPlaces& goals, double to_beat,
-                                      const Limits& limits, Work& work);
+/// may beat `to_beat`, and follows the way-points with as few pushes as lose little. Ends
+/// off the goal, within its tolerances, have to be worth it (kWorthTolerance).
+std::optional<Chain> search_runs(const SearchModel& search, const FlatState& start,
+                                 const Goal& goal, double to_beat, const Limits& limits,
+                                 Work& work);
 
 /// Replaces a plan over round pads that may be far from optimal by one of a single
 /// placement, if there is one that is cheaper.

@@ -60,6 +60,28 @@ void set_goal(const WordQuestion& question, double turn_low, double turn_high,
   box.half = {along * u, across * perp(u)};
 }
 
+/// The goal's places for these turns, as a run sees them.
+GoalArc goal_arc(const WordQuestion& question, double turn_low, double turn_high) {
+  const WordGoal& goal = question.goal;
+  const double theta = question.theta + 0.5 * (turn_low + turn_high);
+  const double half = 0.5 * (turn_high - turn_low);
+  GoalArc arc;
+  arc.centre = -rotated(-theta, goal.place_H);
+  arc.arc = -half * perp(arc.centre);
+  const double bulge = 0.5 * arc.centre.norm() * half * half;
+  arc.slack.fill(bulge + goal.place_slack);
+  if (goal.slack_per_turn == 0.0 || goal.turn_high - goal.turn_low > kPi) return arc;
+  // What the angle is off is taken from what the place may be off.
+  const double off =
+      std::remainder(theta - 0.5 * (goal.turn_low + goal.turn_high), 2.0 * kPi);
+  for (int i = 0; i < 2; ++i) {
+    const double side = i == 0 ? -1.0 : 1.0;
+    arc.slack[i] += side * goal.slack_per_turn * off;
+    arc.slope[i] = side * goal.slack_per_turn * half;
+  }
+  return arc;
+}
+
 /// Nodes of one search, best first.
 class OpenNodes {
  public:
@@ -231,7 +253,6 @@ class SingleRuns {
     node.contact[1] = static_cast<signed char>(contact);
     node.bound = 1.0 + question_.straight / scene_.L;
     set_goal(question_, low, high, node);
-    const PointBox goal = node.box[1];
     const WordNode whole = node;
     cross_portals(scene_, node);
     if (!bound_node(scene_, target_, node)) return;
@@ -240,7 +261,7 @@ class SingleRuns {
                                      .c = scene_.c,
                                      .outline = &scene_.outline,
                                      .start = question_.p_OF,
-                                     .goal = goal,
+                                     .goal = goal_arc(question_, low, high),
                                      .turn_low = low,
                                      .turn_high = high,
                                      .cap = (target_ - 1.0) * scene_.L});

@@ -216,9 +216,10 @@ inline constexpr std::array<double, 2> kQuadratureNodes{0.27639320225002103,
 /// through the four rates.
 ///
 /// What the rates are off the base step's quartic falls, where the rate is smooth, with a
-/// higher power of the length than its curvature over the step. A kink that bends the rate
-/// more than the rest does is a constant share of both, wherever it lies. Then the error is
-/// random and may be computed small by chance, but is not far above that difference.
+/// higher power of the length than its curvature over the step. A kink that bends the
+/// rate more than the rest does is a constant share of both, wherever it lies. Then the
+/// error is random and may be computed small by chance, but is not far above that
+/// difference.
 inline void judge(const BaseStep& base, const std::array<Vec2, 2>& rates,
                   DenseStep& step) {
   constexpr double kOfCurvature = 0.01;

@@ -159,8 +159,7 @@ template <class Instant>
 double PushRun<Instant>::counted_error() const {
   const double error = length_of(step_.error);
   if (step_.is_doubled) return kDoubtOfStiff * error;
-  const double seen =
-      kDoubt * std::max(error, kOfEmbedded * length_of(step_.embedded));
+  const double seen = kDoubt * std::max(error, kOfEmbedded * length_of(step_.embedded));
   return step_.is_smooth ? seen : std::max(seen, kDoubtOfKink * length_of(step_.defect));
 }
 

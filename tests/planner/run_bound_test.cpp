@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "planner/ring_pads.h"
+#include "planner/segment.h"
 #include "problems/published_regrasps.h"
+#include "scene/outline.h"
 #include "tests/support/random.h"
 
 namespace prehensile {
@@ -33,8 +35,9 @@ Walk random_run(const Model& model, int contact, const Vec2& start, Random& rand
     const Vec2 e = rotated(lean + random.in(-0.4, 0.4), pushed.n);
     const double turn = length * (spin + random.in(-1.5, 1.5)) / model.c;
     const Vec2 to = walk.end - length * e;
-    const bool inside = std::abs(to.x()) < 0.05 && std::abs(to.y()) < 0.05;
-    if (!inside || ring_slack(model, pushed, walk.end, e, length, turn) < 0.0) continue;
+    if (!segment_inside(model.pad_face, walk.end, to) ||
+        ring_slack(model, pushed, walk.end, e, length, turn) < 0.0)
+      continue;
     walk.end = to;
     walk.turn += turn;
     walk.travel += std::hypot(length, model.c * turn);
@@ -59,7 +62,7 @@ void attack_with_runs(int scenes, std::uint64_t seed) {
   Random random(seed);
   int runs = 0, sharp = 0;
   for (int i = 0; i < scenes; ++i) {
-    Scene scene = published_square(0);
+    Scene scene = random.chance(0.5) ? published_square(0) : published_tee(0);
     if (random.chance(0.5)) scene.g_W.setZero();
     scene.gripper.grip_force = random.log_in(12.0, 80.0);
     for (auto& pusher : scene.pushers) pusher.friction = random.in(0.2, 1.1);
@@ -68,13 +71,21 @@ void attack_with_runs(int scenes, std::uint64_t seed) {
     for (int k = 0; k < 20; ++k) {
       const int contact = random.below(static_cast<int>(model.contacts.size()));
       const Vec2 start = random.in_box(0.045, 0.045);
+      if (!contains(model.pad_face, start)) continue;
       const Walk walk = random_run(model, contact, start, random);
       if (walk.moves < 3) continue;
       ++runs;
       RunQuestion question = question_of(model, laws, contact, start, walk);
-      if (random.chance(0.5)) {  // the walk ends in a corner of the goal's box
-        question.goal.half = {Vec2(1e-3, 0.0), Vec2(0.0, 2e-3)};
-        question.goal.centre += Vec2(1e-3, -2e-3);
+      if (random.chance(0.5)) {  // the walk ends at the rim of the goal
+        const double share = random.in(-1.0, 1.0);
+        GoalArc& goal = question.goal;
+        goal.arc = {3e-3, -2e-3};
+        goal.slack.fill(1e-3 + 1e-3 * std::abs(share));
+        goal.slope = {1e-3, -1e-3};
+        goal.centre -= share * goal.arc;
+        const double off = std::min(goal.slack[0] + goal.slope[0] * share,
+                                    goal.slack[1] + goal.slope[1] * share);
+        goal.centre += rotated(random.in(-kPi, kPi), {0.999 * off, 0.0});
         question.turn_high += 0.05;
       }
       question.cap = random.in(1.001, 1.3) * walk.travel;
@@ -139,8 +150,8 @@ TEST(RunBound, FindsTheShortestRun) {
     const PushContact& contact = model.contacts[0];
     double length = 0.0;
     Vec2 at = start;
-    for (std::size_t j = 0; j <= path.size(); ++j) {
-      const Vec2 step = (j < path.size() ? path[j] : walk.end) - at;
+    for (std::size_t j = 0; j <= path.places.size(); ++j) {
+      const Vec2 step = (j < path.places.size() ? path.places[j] : walk.end) - at;
       EXPECT_LE(std::abs(step.dot(contact.t)), -contact.mu * step.dot(contact.n) + 1e-4);
       length += step.norm();
       at += step;

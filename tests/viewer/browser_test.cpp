@@ -41,8 +41,7 @@ Ended run(const std::string& command) {
 
 std::string browser() {
   for (const char* name : {"chromium", "chromium-browser", "google-chrome"}) {
-    const std::string found =
-        run(std::string("command -v ") + name + " 2>/dev/null").out;
+    const std::string found = run(std::string("command -v ") + name + " 2>/dev/null").out;
     if (!found.empty()) return found.substr(0, found.find('\n'));
   }
   return {};
@@ -53,12 +52,12 @@ std::string opened(const std::string& program, const Folder& folder,
                    const std::string& text, const std::string& moment) {
   const fs::path file = folder / "page.html";
   std::ofstream(file) << text;
-  const Ended ended = run(
-      "timeout 120 '" + program + "' --headless --no-sandbox --no-first-run " +
-      "--disable-background-networking --enable-unsafe-swiftshader " +
-      "--use-angle=swiftshader --virtual-time-budget=3000 --enable-logging=stderr " +
-      "--user-data-dir='" + (folder / "profile").string() + "' --dump-dom 'file://" +
-      file.string() + moment + "' 2>&1");
+  const Ended ended =
+      run("timeout 120 '" + program + "' --headless --no-sandbox --no-first-run " +
+          "--disable-background-networking --enable-unsafe-swiftshader " +
+          "--use-angle=swiftshader --virtual-time-budget=3000 --enable-logging=stderr " +
+          "--user-data-dir='" + (folder / "profile").string() + "' --dump-dom 'file://" +
+          file.string() + moment + "' 2>&1");
   EXPECT_EQ(ended.status, 0) << ended.out.substr(0, 500);
   return ended.out;
 }

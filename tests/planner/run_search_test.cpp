@@ -1,0 +1,46 @@
+#include "planner/run_search.h"
+
+#include <gtest/gtest.h>
+
+#include "planner/goal.h"
+#include "planner/limits.h"
+#include "planner/planner.h"
+#include "problems/published_regrasps.h"
+
+namespace prehensile {
+namespace {
+
+/// A T whose stem is so narrow that no single run reaches the goal itself, but one
+/// reaches a place within its tolerances.
+TEST(RunSearch, UsesTolerancesWhereTheySaveAPlacement) {
+  int saved = 0;
+  for (int i = 0; i < 80; ++i) {
+    const Scene scene = random_among_walls(false, RegraspRange::kPublished, true, 61, i);
+    const Model model = prepare(scene);
+    const SearchModel search = prepare_search(model, Margin::none());
+    const FlatState start = flat_state(scene.start);
+    Work work{.budget = 1'000'000};
+    const Limits limits({}, work);
+    Goal exact = *scene.goal;
+    exact.position_tolerance = 1e-9;
+    const auto to_goal = search_runs(search, start, exact, 3.0, limits, work);
+    const auto within = search_runs(search, start, *scene.goal, 3.0, limits, work);
+    EXPECT_LE(to_goal.has_value(), within.has_value()) << i;
+    if (!within) continue;
+    EXPECT_EQ(placements(*within), 1);
+    FlatState end = start;
+    for (int k = 0; k < within->count; ++k) {
+      end = move_of(search, *within, k, end.theta).to;
+    }
+    EXPECT_TRUE(reaches(*scene.goal, grasp_of(end, 0.0))) << i;
+    if (to_goal) {
+      EXPECT_LE(within->cost, to_goal->cost + 1e-9) << i;
+    } else {
+      ++saved;
+    }
+  }
+  EXPECT_GE(saved, 1);
+}
+
+}  // namespace
+}  // namespace prehensile

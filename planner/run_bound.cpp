@@ -16,9 +16,10 @@ constexpr int kPieces = kRunPieces;
 constexpr int kVariables = 3 * kPieces + 6;
 constexpr double kViolation = 1e3;     // cost of what is violated, per m
 constexpr double kFirstWeight = 0.03;  // of the barrier, relative to the cap
-constexpr double kLastWeight = 1e-5;
+constexpr double kLastWeight = 1e-6;
+constexpr double kPathWeight = 1e-4;  // for paths: inside the laws, not on their border
 constexpr double kReduction = 0.2;
-constexpr int kMostSteps = 8;  // of Newton's method, for one weight
+constexpr int kMostSteps = 30;  // of Newton's method, for one weight
 constexpr double kNearlyOptimal = 5e-3;
 
 using Band = BorderedBand<kVariables, 5>;
@@ -363,13 +364,15 @@ double run_bound(const RunQuestion& question) noexcept {
   if (!program.is_ahead) return 0.0;
   Barrier barrier(program);
   barrier.start();
-  double best = 0.0;
+  double best = program.level.back();  // no way is shorter than it is deep
   for (double weight = kFirstWeight * question.cap; weight > kLastWeight * question.cap;
        weight *= kReduction) {
     if (!barrier.centre(weight)) break;
     best = std::max(best, dual_bound(program, barrier.multipliers()));
     if (best >= question.cap) return question.cap;
-    if (barrier.objective() - best <= kNearlyOptimal * question.cap) break;
+    // What may still be proved to be no less than the cap is worth more steps.
+    const double value = barrier.objective();
+    if (value < question.cap && value - best <= kNearlyOptimal * question.cap) break;
   }
   return best;
 }
@@ -380,7 +383,7 @@ bool run_path(const RunQuestion& question, RunPath& path) noexcept {
   if (!program.is_ahead) return false;
   Barrier barrier(program);
   barrier.start();
-  for (double weight = kFirstWeight * question.cap; weight > kLastWeight * question.cap;
+  for (double weight = kFirstWeight * question.cap; weight > kPathWeight * question.cap;
        weight *= kReduction) {
     if (!barrier.centre(weight)) return false;
     if (dual_bound(program, barrier.multipliers()) >= question.cap) return false;

@@ -277,7 +277,7 @@ double GoalArc::widest() const {
 /// Multipliers that are not quite optimal, or those of a goal out of reach, may lie
 /// outside the domain; a little less of them does not.
 double dual_bound(const RunProgram& program, const RunMultipliers& y) {
-  constexpr std::array<double, 5> kFactors = {1.0, 0.99, 0.95, 0.8, 0.5};
+  constexpr std::array<double, 7> kFactors = {1.0, 0.99, 0.95, 0.8, 0.5, 0.25, 0.1};
   double best = -kInfinity;
   for (const double factor : kFactors) {
     best = std::max(best, dual_value(program, factor < 1.0 ? scaled(y, factor) : y));

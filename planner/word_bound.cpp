@@ -3,20 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "planner/portals.h"
-#include "planner/run_bound.h"
 #include "scene/outline.h"
 
 namespace prehensile {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kMostPlacements = 6;
-constexpr double kWidestTurn = 0.5;  // [rad] of a first goal piece
-constexpr double kNarrowestTurn = 1e-3;
-constexpr std::int64_t kNodesPerRun = 500;  // as long as a bound of a run takes
+constexpr std::int64_t kNodesPerRun = 700;  // as long as a bound of a run takes
 
 /// A node that is open: best first, of equal ones the older.
 struct OpenNode {
@@ -26,61 +21,6 @@ struct OpenNode {
     return bound != other.bound ? bound > other.bound : index > other.index;
   }
 };
-
-/// Greatest distance of the goal's place from the nominal one at these turns [m].
-double place_slack(const WordQuestion& question, double turn_low, double turn_high) {
-  const WordGoal& goal = question.goal;
-  const bool nearly_any = goal.turn_high - goal.turn_low > kPi;
-  if (goal.slack_per_turn == 0.0 || nearly_any) return goal.place_slack;
-  const double middle = 0.5 * (goal.turn_low + goal.turn_high) - question.theta;
-  const double from = std::remainder(turn_low - middle, 2.0 * kPi);
-  const double to = from + turn_high - turn_low;
-  const double off = std::max({0.0, from, -to});
-  return std::max(0.0, goal.place_slack - goal.slack_per_turn * off);
-}
-
-/// Puts the goal's place at the end of the chain: the finger axis ends in O at
-/// -R(-theta) place_H, an arc.
-void set_goal(const WordQuestion& question, double turn_low, double turn_high,
-              WordNode& node) {
-  node.turn_low = turn_low;
-  node.turn_high = turn_high;
-  const double theta = question.theta + 0.5 * (turn_low + turn_high);
-  const double half = 0.5 * (turn_high - turn_low);
-  const Vec2 place = -rotated(-theta, question.goal.place_H);
-  const Vec2 tangent = -perp(place);  // of the arc, per radian
-  const double radius = place.norm();
-  PointBox& box = node.box[node.points - 1];
-  box.centre = place;
-  node.goal_arc = half > kNarrowestTurn ? Vec2(half * tangent) : Vec2(Vec2::Zero());
-  const double slack = place_slack(question, turn_low, turn_high);
-  const double along = radius * half + slack;
-  const double across = 0.5 * radius * half * half + slack;
-  const Vec2 u = radius > 0.0 ? Vec2(tangent / radius) : Vec2(1.0, 0.0);
-  box.half = {along * u, across * perp(u)};
-}
-
-/// The goal's places for these turns, as a run sees them.
-GoalArc goal_arc(const WordQuestion& question, double turn_low, double turn_high) {
-  const WordGoal& goal = question.goal;
-  const double theta = question.theta + 0.5 * (turn_low + turn_high);
-  const double half = 0.5 * (turn_high - turn_low);
-  GoalArc arc;
-  arc.centre = -rotated(-theta, goal.place_H);
-  arc.arc = -half * perp(arc.centre);
-  const double bulge = 0.5 * arc.centre.norm() * half * half;
-  arc.slack.fill(bulge + goal.place_slack);
-  if (goal.slack_per_turn == 0.0 || goal.turn_high - goal.turn_low > kPi) return arc;
-  // What the angle is off is taken from what the place may be off.
-  const double off =
-      std::remainder(theta - 0.5 * (goal.turn_low + goal.turn_high), 2.0 * kPi);
-  for (int i = 0; i < 2; ++i) {
-    const double side = i == 0 ? -1.0 : 1.0;
-    arc.slack[i] += side * goal.slack_per_turn * off;
-    arc.slope[i] = side * goal.slack_per_turn * half;
-  }
-  return arc;
-}
 
 /// Nodes of one search, best first.
 class OpenNodes {
@@ -206,32 +146,6 @@ PointBox bounding_box(const std::vector<Vec2>& outline) {
   return box;
 }
 
-/// Every winding of the goal within reach of the cap, in pieces of at most kWidestTurn.
-template <class Use>
-void for_each_goal_piece(const WordScene& scene, const WordQuestion& question,
-                         double travel, const Use& use) {
-  const double most = travel / scene.c;
-  const auto pieces = [&](double low, double high) {
-    low = std::max(low, -most);
-    high = std::min(high, most);
-    if (low > high) return;
-    const int count = 1 + static_cast<int>((high - low) / kWidestTurn);
-    for (int i = 0; i < count; ++i) {
-      use(low + (high - low) * i / count, low + (high - low) * (i + 1) / count);
-    }
-  };
-  if (question.goal.any_turn) {
-    pieces(-most, most);
-    return;
-  }
-  const double low = question.goal.turn_low - question.theta;
-  const double high = question.goal.turn_high - question.theta;
-  if (question.goal.one_winding) return pieces(low, high);
-  const int first = static_cast<int>(std::ceil((-most - high) / (2.0 * kPi)));
-  const int last = static_cast<int>(std::floor((most - low) / (2.0 * kPi)));
-  for (int k = first; k <= last; ++k) pieces(low + 2.0 * kPi * k, high + 2.0 * kPi * k);
-}
-
 /// Runs of a single placement whose goal turns by some range, best first.
 class SingleRuns {
  public:
@@ -243,49 +157,32 @@ class SingleRuns {
         nodes_(nodes),
         others_(scene, target, nodes) {}
 
-  void add(int contact, double low, double high) {
+  /// `least`: a bound that is known.
+  void add(int contact, double low, double high, double least) {
     --nodes_;
     Run run{.contact = contact, .turn_low = low, .turn_high = high};
-    WordNode node;
-    node.points = 2;
-    node.placements = 1;
-    node.box[0].centre = question_.p_OF;
-    node.contact[1] = static_cast<signed char>(contact);
-    node.bound = 1.0 + question_.straight / scene_.L;
-    set_goal(question_, low, high, node);
-    const WordNode whole = node;
+    WordNode node = node_of(run);
     cross_portals(scene_, node);
     if (!bound_node(scene_, target_, node)) return;
-    const double travel = run_bound({.laws = scene_.laws,
-                                     .contact = contact,
-                                     .c = scene_.c,
-                                     .outline = &scene_.outline,
-                                     .start = question_.p_OF,
-                                     .goal = goal_arc(question_, low, high),
-                                     .turn_low = low,
-                                     .turn_high = high,
-                                     .cap = (target_ - 1.0) * scene_.L});
-    if (travel <= 0.0) {  // the goal is not ahead: gravity has to help
-      WordNode piece = whole;
-      return others_.add(piece);
-    }
-    nodes_ -= kNodesPerRun;
-    run.bound = std::max(node.bound, 1.0 + travel / scene_.L);
-    if (run.bound >= target_) return;
-    heap_.push_back(run);
-    std::push_heap(heap_.begin(), heap_.end());
+    run.bound = std::max(least, node.bound);
+    keep(run);
   }
 
-  /// The least bound of what is left, at most the target.
+  /// The least bound of what is left, at most the target. What is worst is looked at
+  /// first: by its program, then in halves.
   double run() {
     while (!heap_.empty() && nodes_ > 0) {
-      const Run worst = heap_.front();
-      const double middle = 0.5 * (worst.turn_low + worst.turn_high);
-      if (worst.turn_high - worst.turn_low < kNarrowestTurn) break;
+      Run worst = heap_.front();
+      if (worst.is_bounded && worst.turn_high - worst.turn_low < kNarrowestTurn) break;
       std::pop_heap(heap_.begin(), heap_.end());
       heap_.pop_back();
-      add(worst.contact, worst.turn_low, middle);
-      add(worst.contact, middle, worst.turn_high);
+      if (!worst.is_bounded) {
+        bound_by_program(worst);
+        continue;
+      }
+      const double middle = 0.5 * (worst.turn_low + worst.turn_high);
+      add(worst.contact, worst.turn_low, middle, worst.bound);
+      add(worst.contact, middle, worst.turn_high, worst.bound);
     }
     const double left = heap_.empty() ? target_ : heap_.front().bound;
     return std::min(left, others_.run(question_));
@@ -295,8 +192,47 @@ class SingleRuns {
   struct Run {
     int contact = 0;
     double turn_low = 0.0, turn_high = 0.0, bound = 0.0;
+    bool is_bounded = false;  // by its program
     bool operator<(const Run& other) const { return bound > other.bound; }
   };
+
+  WordNode node_of(const Run& run) const {
+    WordNode node;
+    node.points = 2;
+    node.placements = 1;
+    node.box[0].centre = question_.p_OF;
+    node.contact[1] = static_cast<signed char>(run.contact);
+    node.bound = 1.0 + question_.straight / scene_.L;
+    set_goal(question_, run.turn_low, run.turn_high, node);
+    return node;
+  }
+
+  void keep(const Run& run) {
+    if (run.bound >= target_) return;
+    heap_.push_back(run);
+    std::push_heap(heap_.begin(), heap_.end());
+  }
+
+  void bound_by_program(Run& run) {
+    const double travel =
+        run_bound({.laws = scene_.laws,
+                   .contact = run.contact,
+                   .c = scene_.c,
+                   .outline = &scene_.outline,
+                   .start = question_.p_OF,
+                   .goal = goal_arc(question_, run.turn_low, run.turn_high),
+                   .turn_low = run.turn_low,
+                   .turn_high = run.turn_high,
+                   .cap = (target_ - 1.0) * scene_.L});
+    if (travel <= 0.0) {  // the goal is not ahead: gravity has to help
+      WordNode node = node_of(run);
+      return others_.add(node);
+    }
+    nodes_ -= kNodesPerRun;
+    run.is_bounded = true;
+    run.bound = std::max(run.bound, 1.0 + travel / scene_.L);
+    keep(run);
+  }
 
   const WordScene& scene_;
   const WordQuestion& question_;
@@ -310,10 +246,10 @@ class SingleRuns {
 double single_runs(const WordScene& scene, const WordQuestion& question, double target,
                    std::int64_t& nodes) {
   SingleRuns runs(scene, question, target, nodes);
+  const auto pieces = goal_pieces(scene, question, (target - 1.0) * scene.L);
   const int contacts = static_cast<int>(scene.laws->contacts.size());
   for (int contact = 0; contact < contacts; ++contact) {
-    for_each_goal_piece(scene, question, (target - 1.0) * scene.L,
-                        [&](double low, double high) { runs.add(contact, low, high); });
+    for (const TurnPiece& piece : pieces) runs.add(contact, piece.low, piece.high, 1.0);
   }
   return runs.run();
 }
@@ -322,6 +258,7 @@ double single_runs(const WordScene& scene, const WordQuestion& question, double 
 double words(const WordScene& scene, const WordQuestion& question, int placements,
              double target, std::int64_t& nodes) {
   OpenNodes open(scene, target, nodes);
+  const auto pieces = goal_pieces(scene, question, (target - placements) * scene.L);
   const int contacts = static_cast<int>(scene.laws->contacts.size());
   WordNode node;
   node.points = placements + 1;
@@ -339,12 +276,11 @@ double words(const WordScene& scene, const WordQuestion& question, int placement
     }
     if (!repeats) {
       if (nodes <= 0) return std::min(target, node.bound);
-      for_each_goal_piece(scene, question, (target - placements) * scene.L,
-                          [&](double low, double high) {
-                            WordNode piece = node;
-                            set_goal(question, low, high, piece);
-                            open.add(piece);
-                          });
+      for (const TurnPiece& piece : pieces) {
+        WordNode child = node;
+        set_goal(question, piece.low, piece.high, child);
+        open.add(child);
+      }
     }
     int i = 0;
     while (i < placements && ++word[i] == contacts) word[i++] = 0;

@@ -9,53 +9,19 @@
 
 #include "primitives/uncertainty.h"
 #include "problems/random_fixtures.h"
+#include "tests/planner/walled_scene.h"
 #include "tests/support/no_heap.h"
 #include "tests/support/random.h"
 
 namespace prehensile {
 namespace {
 
+using testing::kUnlimited;
+using testing::near;
 using testing::Random;
-
-constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();
-
-/// A square or a T among three walls, as in the published regrasps.
-Scene scene_with(const Pad& pad, const PusherFeature& feature, bool tee = false) {
-  Scene scene;
-  if (tee) {
-    const std::vector<Vec2> outline = {{-0.05, -0.05}, {-0.02, -0.05}, {-0.02, -0.015},
-                                       {0.05, -0.015}, {0.05, 0.015},  {-0.02, 0.015},
-                                       {-0.02, 0.05},  {-0.05, 0.05}};
-    scene.object.shape = PrismShape{outline, 0.03};
-  } else {
-    scene.object.shape = BoxShape{{0.1, 0.1, 0.03}};
-  }
-  scene.object.mass = 0.5;
-  scene.gripper.pad = pad;
-  scene.gripper.friction = {0.9, 0.9};
-  scene.gripper.grip_force = 25.0;
-  scene.overhang = Overhang::kIgnore;
-  scene.start.X_HO = pose_from_finger({-0.03, 0.0}, 0.0);
-  for (const double angle : {0.0, 0.5 * std::numbers::pi, -0.5 * std::numbers::pi}) {
-    Pusher wall;
-    wall.name = "wall" + std::to_string(scene.pushers.size());
-    wall.feature = feature;
-    wall.friction = 0.9;
-    wall.normal_angle = angle;
-    scene.pushers.push_back(wall);
-  }
-  return scene;
-}
-
-FlatState random_state(Random& random) {
-  return {random.in_box(0.05, 0.05), random.in(-3.0, 3.0)};
-}
-
-/// A goal near the start: moves of a few millimetres, small and large turns.
-FlatState near(const FlatState& from, Random& random) {
-  const double turn = (random.chance(0.5) ? 1.0 : -1.0) * random.log_in(1e-3, 3.0);
-  return {from.p_OF + random.in_disc(0.03), from.theta + turn};
-}
+using testing::random_state;
+using testing::scene_with;
+using testing::sticking_moves;
 
 TEST(Steering, MoveSticksExactlyWhereTheIntervalSaysSo) {
   const Model model = prepare(scene_with(DiscPad{0.009}, LineFeature{}));
@@ -201,20 +167,6 @@ TEST(Steering, PushEndsWhereTheMoveEnds) {
   }
 }
 
-/// Random moves of a scene that stick, at most `wanted`.
-std::vector<Move> sticking_moves(const SearchModel& search, int wanted,
-                                 std::uint64_t seed) {
-  Random random(seed);
-  Work work{.budget = kUnlimited};
-  std::vector<Move> moves;
-  for (int i = 0; i < 200'000 && static_cast<int>(moves.size()) < wanted; ++i) {
-    const FlatState from = random_state(random);
-    const FlatState to = near(from, random);
-    if (const auto move = direct_move(search, from, to, work)) moves.push_back(*move);
-  }
-  return moves;
-}
-
 TEST(Steering, MovesOfOtherPadsSurviveADenseCheck) {
   struct Case {
     Pad pad;
@@ -308,61 +260,6 @@ TEST(Steering, MovesArriveWhenThePushIsApplied) {
   }
 }
 
-TEST(Steering, PointPushersStandAtTheCentreOfPressure) {
-  const Model model = prepare(scene_with(DiscPad{0.009}, PointFeature{}));
-  const SearchModel search = prepare_search(model, Margin{});
-  ASSERT_EQ(search.contacts.size(), 3u);
-  const std::vector<Move> moves = sticking_moves(search, 500, 8);
-  ASSERT_EQ(moves.size(), 500u);
-  int held = 0;
-  for (const Move& move : moves) {
-    const LinearPush push = push_of(search, move);
-    EXPECT_LE(std::abs(push.place), 0.05 - 1e-3 + 1e-12);
-    const StickTest test =
-        exact_stick_test(model, model.contacts[push.contact], push.place,
-                         pose_along(move.from, move.to, 0.5), push.e, push.travel,
-                         push.turn, Margin::none());
-    held += test.slack >= 0.0;
-  }
-  std::printf("%d of 500 point pushes have their moment right with the real disc\n",
-              held);
-  EXPECT_GT(held, 450);
-}
-
-TEST(Steering, ShortLinesCoverTheFaceAndStayOnIt) {
-  for (const double length : {0.004, 0.02, 0.05, 0.09, 0.1, 0.2}) {
-    const Model model = prepare(scene_with(DiscPad{0.009}, LineFeature{length}));
-    const SearchModel search = prepare_search(model, Margin{});
-    if (length >= 0.1) {
-      EXPECT_EQ(search.contacts.size(), 3u);
-    }
-    double covered = -0.05;
-    for (const SearchContact& contact : search.contacts) {
-      if (contact.contact != 0) continue;
-      const double low = (contact.stick.a - contact.stick.centre).dot(contact.stick.t);
-      const double high = (contact.stick.b - contact.stick.centre).dot(contact.stick.t);
-      EXPECT_NEAR(high - low, std::min(length, 0.1), 1e-12);
-      EXPECT_GE(low, -0.05 - 1e-12);
-      EXPECT_LE(high, 0.05 + 1e-12);
-      EXPECT_TRUE(length < 0.02 || low <= covered + 1e-12);
-      covered = high;
-    }
-    EXPECT_NEAR(covered, 0.05, 1e-12);
-  }
-}
-
-TEST(Steering, PointPadsAndFrictionlessGraspsHaveNoContacts) {
-  const Model point = prepare(scene_with(PointPad{}, LineFeature{}));
-  EXPECT_TRUE(prepare_search(point, Margin{}).contacts.empty());
-  Scene loose = scene_with(DiscPad{0.009}, LineFeature{});
-  loose.gripper.grip_force = 0.0;
-  const Model slack = prepare(loose);
-  const SearchModel search = prepare_search(slack, Margin{});
-  EXPECT_TRUE(search.contacts.empty());
-  Work work{.budget = kUnlimited};
-  EXPECT_FALSE(direct_move(search, {{0.02, 0.0}, 0.0}, {{0.0, 0.0}, 0.0}, work));
-}
-
 TEST(Steering, NeedsNoHeap) {
   Scene scene = scene_with(RectanglePad{{0.01, 0.02}}, PointFeature{}, true);
   scene.overhang = Overhang::kClip;
@@ -383,32 +280,6 @@ TEST(Steering, NeedsNoHeap) {
   const long allocations = scope.allocations();
   EXPECT_LE(allocations, 0);
   EXPECT_GT(found, 0);
-}
-
-/// Indices of contacts mean the same at every margin.
-TEST(Steering, KeepsItsContactsAtOtherMargins) {
-  FixtureRange range;
-  range.object = FixtureObject::kConcave;
-  range.pushers = FixturePushers::kPoints;
-  int leave_their_face = 0;
-  for (int i = 0; i < 40; ++i) {
-    const auto problem = random_fixture(range, 5, i);
-    if (!problem) continue;
-    const Model model = prepare(problem->scene);
-    const SearchModel search = prepare_search(model, margin_of(model, usual_box()));
-    for (const double scale : {0.0, 3.0, 9.0}) {
-      const Margin margin = search.margin.scaled(scale);
-      const SearchModel other = with_margin(search, margin);
-      ASSERT_EQ(other.contacts.size(), search.contacts.size());
-      for (std::size_t k = 0; k < search.contacts.size(); ++k) {
-        EXPECT_EQ(other.contacts[k].contact, search.contacts[k].contact);
-        EXPECT_LE(other.contacts[k].place_low, other.contacts[k].place_high);
-      }
-      const std::size_t kept = prepare_search(model, margin).contacts.size();
-      if (scale > 1.0 && kept < search.contacts.size()) ++leave_their_face;
-    }
-  }
-  EXPECT_GT(leave_their_face, 0);
 }
 
 }  // namespace

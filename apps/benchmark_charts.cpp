@@ -6,6 +6,8 @@
 
 #include "apps/benchmark_page.h"
 #include "apps/benchmark_text.h"
+#include "benchmarks/suite/statistics.h"
+#include "planner/share_interval.h"
 
 namespace prehensile::apps {
 namespace {
@@ -167,7 +169,7 @@ plot::Chart time_chart(const Results& results, const suite::Summary& summary) {
     for (std::size_t i = 0; i < times.size(); ++i) {
       if (i % stride != 0 && i + 1 != times.size()) continue;
       const int solved = static_cast<int>(i) + 1;
-      const suite::Interval interval = suite::wilson(solved, total.feasible_runs);
+      const ShareInterval interval = wilson(solved, total.feasible_runs);
       steps.points.push_back({times[i], 100.0 * solved / total.feasible_runs});
       band.rows.push_back({times[i], 100.0 * interval.low, 100.0 * interval.high});
     }

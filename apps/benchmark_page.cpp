@@ -7,6 +7,7 @@
 #include "apps/benchmark_studies.h"
 #include "apps/benchmark_text.h"
 #include "apps/table.h"
+#include "benchmarks/suite/statistics.h"
 
 namespace prehensile::apps {
 namespace {

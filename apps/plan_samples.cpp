@@ -9,6 +9,7 @@
 #include "apps/parallel.h"
 #include "apps/table.h"
 #include "apps/uncertainty_options.h"
+#include "planner/share_interval.h"
 
 namespace prehensile::apps {
 namespace {
@@ -83,33 +84,25 @@ Influence influence_of(Unknown unknown, const std::vector<double>& draws,
 
 std::string percent(double share) { return text("%.2f", 100.0 * share); }
 
+double share(int hits, int samples) {
+  return samples > 0 ? static_cast<double>(hits) / samples : 0.0;
+}
+
 std::string interval_text(int hits, int samples) {
-  const ShareInterval interval = wilson_interval(hits, samples);
+  const ShareInterval interval = wilson(hits, samples);
   return text("%d of %d, %.2f %% (95 %%: %.2f to %.2f %%)", hits, samples,
-              100.0 * interval.share, 100.0 * interval.low, 100.0 * interval.high);
+              100.0 * share(hits, samples), 100.0 * interval.low, 100.0 * interval.high);
 }
 
 nlohmann::ordered_json interval_json(int hits, int samples) {
-  const ShareInterval interval = wilson_interval(hits, samples);
+  const ShareInterval interval = wilson(hits, samples);
   return {{"count", hits},
-          {"share", interval.share},
+          {"share", share(hits, samples)},
           {"low", interval.low},
           {"high", interval.high}};
 }
 
 }  // namespace
-
-ShareInterval wilson_interval(int hits, int samples) {
-  if (samples <= 0) return {};
-  constexpr double kZ = 1.959963984540054;
-  const double n = samples;
-  const double p = hits / n;
-  const double shrink = 1.0 + kZ * kZ / n;
-  const double centre = (p + 0.5 * kZ * kZ / n) / shrink;
-  const double half =
-      kZ / shrink * std::sqrt(p * (1.0 - p) / n + 0.25 * kZ * kZ / (n * n));
-  return {p, std::max(0.0, centre - half), std::min(1.0, centre + half)};
-}
 
 SampleReport sample_plan(const Model& model, const Plan& plan,
                          const SampleOptions& options) {

@@ -21,12 +21,6 @@ struct SampleOptions {
   TransitionOptions transition;
 };
 
-/// Wilson's 95 % interval of a share.
-struct ShareInterval {
-  double share = 0.0, low = 0.0, high = 1.0;
-};
-ShareInterval wilson_interval(int hits, int samples);
-
 /// How success depends on one unknown: by thirds of its draws, lowest first.
 struct Influence {
   Unknown unknown;

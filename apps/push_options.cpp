@@ -71,7 +71,7 @@ int chosen_contact(const Model& model, const PushOptions& options) {
     throw BadInput("pushers: none touches a face of the object: expected at least one");
   }
   std::string pusher = options.pusher;
-  if (pusher.empty() && !model.contacts.empty()) {
+  if (pusher.empty()) {
     pusher = model.scene.pushers[model.contacts.front().pusher].name;
   }
   const int contact = find_contact(model, pusher, options.face);

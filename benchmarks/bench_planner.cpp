@@ -22,6 +22,7 @@
 #include "planner/frame.h"
 #include "planner/push_search.h"
 #include "planner/replay.h"
+#include "planner/share_interval.h"
 #include "primitives/uncertainty.h"
 #include "problems/published_regrasps.h"
 #include "problems/random_regrasps.h"
@@ -176,20 +177,6 @@ void write_csv(const Options& options, const std::vector<Run>& runs, std::FILE* 
   }
 }
 
-/// Wilson's 95 % interval of a share.
-struct Interval {
-  double low, high;
-};
-Interval wilson(int hits, int runs) {
-  constexpr double kZ = 1.959964;
-  const double n = runs;
-  const double p = hits / n;
-  const double centre = (p + kZ * kZ / (2 * n)) / (1 + kZ * kZ / n);
-  const double half =
-      kZ / (1 + kZ * kZ / n) * std::sqrt(p * (1 - p) / n + kZ * kZ / (4 * n * n));
-  return {centre - half, centre + half};
-}
-
 /// One line per kind of problem and planner; costs and gaps over its solved runs.
 void write_summary(const std::set<std::pair<std::string, std::string>>& groups,
                    const std::vector<Run>& runs, std::FILE* out) {
@@ -216,7 +203,7 @@ void write_summary(const std::set<std::pair<std::string, std::string>>& groups,
     }
     if (count == 0) continue;
     const int solved = static_cast<int>(cost.size());
-    const Interval interval = wilson(solved, count);
+    const ShareInterval interval = wilson(solved, count);
     std::fprintf(out,
                  "%-16s%-28s%6d%8d%8.1f-%5.1f %%%9.4f ms%10.3f%10.3f%8.2f ms%8.0f%8.3f"
                  "%7.1f %%%8.1f %%%8.1f %%%14.2f%11.2f\n",

@@ -5,14 +5,6 @@
 
 namespace prehensile::suite {
 
-struct Interval {
-  double low = 0.0;
-  double high = 1.0;
-};
-
-/// Wilson's score interval of a share at 95 % confidence; [0, 1] without runs.
-Interval wilson(int hits, int runs);
-
 /// The smallest value that at least `share` of the values do not exceed, 0 <= share <= 1.
 /// NaN values are left out; without any value the answer is NaN.
 double quantile(std::vector<double> values, double share);

@@ -6,6 +6,8 @@
 #include <set>
 #include <tuple>
 
+#include "benchmarks/suite/statistics.h"
+
 namespace prehensile::suite {
 namespace {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "benchmarks/suite/results.h"
-#include "benchmarks/suite/statistics.h"
+#include "planner/share_interval.h"
 
 namespace prehensile::suite {
 
@@ -22,7 +22,7 @@ struct GroupSummary {
   std::array<int, kRunStatusNames.size()> by_status{};
   int feasible_runs = 0;  ///< on problems that nobody has proved infeasible
   int nominal_only = 0;   ///< solved, but not with the margin asked for
-  Interval success_interval;
+  ShareInterval success_interval;
   double time_median = kNothing, time_p99 = kNothing, time_most = kNothing;  ///< [s]
   double cost_median = kNothing;
   double gap_median = kNothing;

@@ -141,6 +141,7 @@ template <class Instant>
 template <class Rate>
 double PushRun<Instant>::look_at_nodes(const BaseStep& base, const Rate& rate) {
   instant_.set_aside();
+  instant_.resume();
   double failed_at = kNever;
   std::array<Vec2, 2> rates;
   for (std::size_t i = 0; i < 2 && failed_at == kNever; ++i) {
@@ -159,8 +160,7 @@ template <class Instant>
 double PushRun<Instant>::counted_error() const {
   const double error = length_of(step_.error);
   if (step_.is_doubled) return kDoubtOfStiff * error;
-  const double seen =
-      kDoubt * std::max(error, kOfEmbedded * length_of(step_.embedded));
+  const double seen = kDoubt * std::max(error, kOfEmbedded * length_of(step_.embedded));
   return step_.is_smooth ? seen : std::max(seen, kDoubtOfKink * length_of(step_.defect));
 }
 

@@ -210,17 +210,16 @@ nlohmann::ordered_json to_json(const ConeReport& report) {
                              {"robust", to_json(slice.robust)}});
   }
   const ConeCheck& check = report.check;
-  const auto unless_in_space = [&](int count) {
-    return report.in_space ? nlohmann::ordered_json() : nlohmann::ordered_json(count);
-  };
-  out["check"] = {{"instants", check.asked},
-                  {"inside", check.inside},
-                  {"not_unique", unless_in_space(check.not_unique)},
-                  {"limit_surface_agrees", unless_in_space(check.closed_agrees)},
-                  {"exact_asked", check.exact_asked},
-                  {"exact_agrees", check.exact_agrees},
-                  {"robust_asked", check.robust_asked},
-                  {"robust_sticks", check.robust_sticks}};
+  nlohmann::ordered_json& judged = out["check"];
+  judged = {{"instants", check.asked}, {"inside", check.inside}};
+  if (!report.in_space) {
+    judged["not_unique"] = check.not_unique;
+    judged["limit_surface_agrees"] = check.closed_agrees;
+  }
+  judged["exact_asked"] = check.exact_asked;
+  judged["exact_agrees"] = check.exact_agrees;
+  judged["robust_asked"] = check.robust_asked;
+  judged["robust_sticks"] = check.robust_sticks;
   return out;
 }
 

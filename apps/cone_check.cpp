@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <optional>
 
 #include "mechanics/planar_instant.h"
 #include "primitives/space_cone.h"
@@ -11,6 +13,9 @@ namespace prehensile::apps {
 namespace {
 
 constexpr double kNear = 1e-6;  // [rad] of an edge
+
+/// The first of the members that no cone has seen.
+constexpr std::uint64_t kFresh = std::uint64_t{1} << 32;
 
 struct Motion {
   double direction = 0.0;
@@ -55,6 +60,27 @@ Motion random_motion(std::uint64_t seed, int i) {
   return {0.6 * std::numbers::pi * at[0], 0.49 * std::numbers::pi * at[1]};
 }
 
+/// Whether the motion lies in the cone; none where the slices next to it disagree.
+std::optional<bool> in_cone(const MotionCone& cone, const Motion& motion, bool robust) {
+  if (cone.is_point) {
+    const std::vector<DirectionRange>& ranges = robust ? cone.robust : cone.nominal;
+    return std::any_of(ranges.begin(), ranges.end(), [&](const DirectionRange& range) {
+      return range.lo <= motion.direction && motion.direction <= range.hi;
+    });
+  }
+  const auto after = std::upper_bound(
+      cone.slices.begin(), cone.slices.end(), motion.direction,
+      [](double at, const ConeSlice& slice) { return at < slice.direction; });
+  if (after == cone.slices.begin() || after == cone.slices.end()) return {};
+  const double rate = std::tan(motion.turn) / cone.c;
+  const auto has = [&](const ConeSlice& slice) {
+    return (robust ? slice.robust : slice.nominal).contains(rate);
+  };
+  const bool inside = has(*after);
+  if (inside != has(*std::prev(after))) return {};
+  return inside;
+}
+
 }  // namespace
 
 ConeCheck check_cone(const ConeQuestion& question, const ConeMember& nominal,
@@ -63,10 +89,7 @@ ConeCheck check_cone(const ConeQuestion& question, const ConeMember& nominal,
   const double c = nominal.contact.c;
   const PlanarGrasp held = grasp_at(question.model, question.grasp.X_HO,
                                     question.model.contacts[question.contact].g_O);
-  const bool in_space =
-      question.model.push_needs_space(question.model.contacts[question.contact]);
-  // Members that the cone has not seen.
-  std::uint64_t fresh = std::uint64_t{1} << 32;
+  std::uint64_t fresh = kFresh;
   for (int i = 0; i < question.count; ++i) {
     const Motion motion = random_motion(question.seed + 17, i);
     if (is_near_an_edge(nominal, motion, c)) continue;
@@ -82,14 +105,7 @@ ConeCheck check_cone(const ConeQuestion& question, const ConeMember& nominal,
     } else {
       ++check.not_unique;
     }
-    if (in_space) {
-      const SpatialVerdict exact =
-          sticks_in_space(question.model, question.grasp, question.contact,
-                          question.place, motion.direction, std::tan(motion.turn) / c);
-      check.exact_asked += exact.is_known;
-      check.exact_agrees += exact.is_known && (exact.margin >= 0.0) == inside;
-    } else if (const PlanarInstant exact = solve_planar(held, drive);
-               usable(exact.status)) {
+    if (const PlanarInstant exact = solve_planar(held, drive); usable(exact.status)) {
       ++check.exact_asked;
       check.exact_agrees += follows(exact, drive, c) == inside;
     }
@@ -104,6 +120,33 @@ ConeCheck check_cone(const ConeQuestion& question, const ConeMember& nominal,
     if (!other.usable) continue;
     ++check.robust_asked;
     check.robust_sticks += in_cone(other.member, motion, c);
+  }
+  return check;
+}
+
+ConeCheck check_cone_in_space(const ConeQuestion& question, const MotionCone& cone) {
+  ConeCheck check;
+  std::uint64_t fresh = kFresh;
+  for (int i = 0; i < question.count; ++i) {
+    const Motion motion = random_motion(question.seed + 17, i);
+    const std::optional<bool> inside = in_cone(cone, motion, false);
+    if (!inside) continue;
+    ++check.asked;
+    check.inside += *inside;
+    const double rate = std::tan(motion.turn) / cone.c;
+    const SpatialVerdict exact =
+        sticks_in_space(question.model, question.grasp, question.contact, question.place,
+                        motion.direction, rate);
+    check.exact_asked += exact.is_known;
+    check.exact_agrees += exact.is_known && (exact.margin >= 0.0) == *inside;
+    if (cone.members == 0 || !in_cone(cone, motion, true).value_or(false)) continue;
+    const std::optional<SpaceMember> other =
+        space_member(question.model, question.grasp, question.contact, question.place,
+                     question.box, random_point(question.seed, fresh++));
+    if (!other) continue;
+    ++check.robust_asked;
+    check.robust_sticks +=
+        sticks_in_space(*other, question.contact, motion.direction, rate).margin >= 0.0;
   }
   return check;
 }

@@ -32,4 +32,9 @@ struct ConeQuestion {
 ConeCheck check_cone(const ConeQuestion& question, const ConeMember& nominal,
                      const std::vector<ConeMember>& members);
 
+/// A cone of space. Of a line pusher only motions are asked whose two next slices agree
+/// about them; the limit surface is not asked, and the members of the robust cone have to
+/// stick in space.
+ConeCheck check_cone_in_space(const ConeQuestion& question, const MotionCone& cone);
+
 }  // namespace prehensile::apps

@@ -32,17 +32,23 @@ std::string rates_text(const KappaSet& set) {
   return out.empty() ? "-" : out;
 }
 
-std::string check_text(const ConeCheck& check) {
+std::string check_text(const ConeCheck& check, bool in_space) {
   if (check.asked == 0) return "";
-  std::string out = text(
-      "checked by %d instants of random motions (%d inside the nominal cone): the limit "
-      "surface agrees in %d of %d",
-      check.asked, check.inside, check.closed_agrees, check.asked - check.not_unique);
-  if (check.not_unique > 0) {
-    out += text(" (%d have no unique motion)", check.not_unique);
+  std::string out =
+      text("checked by %d instants of random motions (%d inside the nominal cone): ",
+           check.asked, check.inside);
+  if (in_space) {
+    out += text("the spatial solver with the real pads agrees in %d of %d\n",
+                check.exact_agrees, check.exact_asked);
+  } else {
+    out += text("the limit surface agrees in %d of %d", check.closed_agrees,
+                check.asked - check.not_unique);
+    if (check.not_unique > 0) {
+      out += text(" (%d have no unique motion)", check.not_unique);
+    }
+    out += text(", the exact solver with the real pads in %d of %d\n", check.exact_agrees,
+                check.exact_asked);
   }
-  out += text(", the exact solver with the real pads in %d of %d\n", check.exact_agrees,
-              check.exact_asked);
   if (check.robust_asked > 0) {
     out += text(
         "of %d motions inside the robust cone, each with a member of the box drawn anew, "
@@ -157,6 +163,7 @@ bool is_empty(const MotionCone& cone) {
 std::string describe(const ConeReport& report) {
   const MotionCone& cone = report.cone;
   std::string out = report.question + '\n';
+  if (report.in_space) out += "by spatial instants: the scene needs space\n";
   out += "robust against " + box_text(report.box) +
          text(": the intersection over %d members (corners of the box and points inside)",
               cone.members) +
@@ -180,7 +187,7 @@ std::string describe(const ConeReport& report) {
     out += table.str();
   }
   if (is_empty(cone)) out += "no motion of this pusher sticks here\n";
-  return out + check_text(report.check);
+  return out + check_text(report.check, report.in_space);
 }
 
 nlohmann::ordered_json to_json(const ConeReport& report) {
@@ -188,6 +195,7 @@ nlohmann::ordered_json to_json(const ConeReport& report) {
   nlohmann::ordered_json out = {
       {"question", report.question},
       {"pusher", cone.is_point ? "point" : "line"},
+      {"in_space", report.in_space},
       {"torque_radius", number(cone.c)},
       {"box", to_json(report.box)},
       {"members", cone.members},
@@ -202,14 +210,16 @@ nlohmann::ordered_json to_json(const ConeReport& report) {
                              {"robust", to_json(slice.robust)}});
   }
   const ConeCheck& check = report.check;
-  out["check"] = {{"instants", check.asked},
-                  {"inside", check.inside},
-                  {"not_unique", check.not_unique},
-                  {"limit_surface_agrees", check.closed_agrees},
-                  {"exact_asked", check.exact_asked},
-                  {"exact_agrees", check.exact_agrees},
-                  {"robust_asked", check.robust_asked},
-                  {"robust_sticks", check.robust_sticks}};
+  nlohmann::ordered_json& judged = out["check"];
+  judged = {{"instants", check.asked}, {"inside", check.inside}};
+  if (!report.in_space) {
+    judged["not_unique"] = check.not_unique;
+    judged["limit_surface_agrees"] = check.closed_agrees;
+  }
+  judged["exact_asked"] = check.exact_asked;
+  judged["exact_agrees"] = check.exact_agrees;
+  judged["robust_asked"] = check.robust_asked;
+  judged["robust_sticks"] = check.robust_sticks;
   return out;
 }
 

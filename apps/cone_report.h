@@ -16,7 +16,8 @@ struct ConeReport {
   double place = 0.0;
   std::string question;  ///< one line for people
   UncertaintyBox box;
-  int unusable = 0;  ///< members of the box that are no grasp at all
+  int unusable = 0;       ///< members of the box that are no grasp at all
+  bool in_space = false;  ///< the cone and its check are those of spatial instants
   MotionCone cone;
   ConeCheck check;
 };

@@ -61,6 +61,7 @@ nlohmann::ordered_json end_json(const GripEnd& end) {
 
 std::string grip_text(const Model& model, const GripRange& range) {
   std::string out;
+  if (range.in_space) out += "by spatial instants: the push needs space\n";
   if (!range.found) out += std::string(range.reason) + '\n';
   if (range.found) {
     out += end_text("least", range.low) + end_text("greatest", range.high);
@@ -82,6 +83,7 @@ std::string grip_text(const Model& model, const GripRange& range) {
 nlohmann::ordered_json grip_json(const GripRange& range) {
   nlohmann::ordered_json out = {{"found", range.found},
                                 {"reason", std::string(range.reason)},
+                                {"in_space", range.in_space},
                                 {"nominal",
                                  {{"x", number(range.nominal.x)},
                                   {"y", number(range.nominal.y)},

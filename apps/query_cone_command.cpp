@@ -1,6 +1,9 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -39,31 +42,50 @@ UncertaintyBox usual_box() {
   return box;
 }
 
-/// Corners and inner points of the box as members; those that are no grasp are counted.
-std::vector<ConeMember> members_of(const Options& options, const Model& model,
-                                   const Grasp& grasp, int contact,
-                                   const UncertaintyBox& box, int& unusable) {
-  std::vector<ConeMember> members;
+/// Corners and inner points of the box.
+std::vector<BoxPoint> points_of(const Options& options, const UncertaintyBox& box) {
+  std::vector<BoxPoint> points;
   const std::size_t unknowns = box.active().size();
-  if (unknowns == 0) return members;
-  const auto add = [&](const BoxPoint& at) {
-    const CompiledMember member =
-        cone_member(model.scene, grasp, contact, 1e-3 * options.push.place_mm, box, at);
-    if (member.usable) {
-      members.push_back(member.member);
-    } else {
-      ++unusable;
-    }
-  };
+  if (unknowns == 0) return points;
   const bool all = unknowns <= 9;
   for (std::uint64_t i = 0; i < (all ? 1U << unknowns : kMostCorners); ++i) {
     // Odd multiples of the golden section spread over the corners of a large box.
-    add(corner(box, all ? i : (i * 0x9e3779b97f4a7c15u) >> 32));
+    points.push_back(corner(box, all ? i : (i * 0x9e3779b97f4a7c15u) >> 32));
   }
   for (int i = 0; i < options.samples; ++i) {
-    add(random_point(options.seed, static_cast<std::uint64_t>(i)));
+    points.push_back(random_point(options.seed, static_cast<std::uint64_t>(i)));
   }
-  return members;
+  return points;
+}
+
+/// The cone of the pad plane, and its check.
+void answer_in_plane(const std::vector<BoxPoint>& points, const ConeQuestion& question,
+                     const ConeMember& nominal, ConeReport& report) {
+  std::vector<ConeMember> members;
+  for (const BoxPoint& at : points) {
+    const CompiledMember member =
+        cone_member(question.model.scene, question.grasp, question.contact,
+                    question.place, question.box, at);
+    if (member.usable) members.push_back(member.member);
+  }
+  report.unusable = static_cast<int>(points.size() - members.size());
+  report.cone = motion_cone(nominal, members);
+  report.check = check_cone(question, nominal, members);
+}
+
+void answer_in_space(const std::vector<BoxPoint>& points, const ConeQuestion& question,
+                     const ConeMember& nominal, ConeReport& report) {
+  std::vector<SpaceMember> members;
+  for (const BoxPoint& at : points) {
+    std::optional<SpaceMember> member =
+        space_member(question.model, question.grasp, question.contact, question.place,
+                     question.box, at);
+    if (member) members.push_back(std::move(*member));
+  }
+  report.unusable = static_cast<int>(points.size() - members.size());
+  report.cone = cone_in_space(question.model, question.grasp, question.contact,
+                              question.place, motion_cone(nominal, {}), members);
+  report.check = check_cone_in_space(question, report.cone);
 }
 
 int run(const Options& options) {
@@ -85,25 +107,21 @@ int run(const Options& options) {
                     text(" at place %.2f mm; object at ", options.push.place_mm) +
                     pose_text(model, grasp);
   report.box = parse_box(options.vary, usual_box());
+  report.in_space = model.push_needs_space(model.contacts[contact]);
   const ConeMember nominal = cone_member(model, contact, report.place, grasp.X_HO);
-  const std::vector<ConeMember> members =
-      members_of(options, model, grasp, contact, report.box, report.unusable);
-  report.cone = motion_cone(nominal, members);
-  if (model.push_needs_space(model.contacts[contact])) {
-    note_pad_plane(model,
-                   "the nominal cone is one of instants in space; the robust one is that "
-                   "of the pad plane as far as it lies in it, and the check compares the "
-                   "pad plane with space");
-    report.cone = cone_in_space(model, grasp, contact, report.place, report.cone);
+  const ConeQuestion question{.model = model,
+                              .grasp = grasp,
+                              .contact = contact,
+                              .place = report.place,
+                              .box = report.box,
+                              .seed = options.seed,
+                              .count = options.check};
+  const std::vector<BoxPoint> points = points_of(options, report.box);
+  if (report.in_space) {
+    answer_in_space(points, question, nominal, report);
+  } else {
+    answer_in_plane(points, question, nominal, report);
   }
-  report.check = check_cone({.model = model,
-                             .grasp = grasp,
-                             .contact = contact,
-                             .place = report.place,
-                             .box = report.box,
-                             .seed = options.seed,
-                             .count = options.check},
-                            nominal, members);
   if (!options.csv.empty()) write_atomically(options.csv, to_csv(report));
   if (!options.plot.empty()) write_atomically(options.plot, to_svg(report));
   const std::string out =

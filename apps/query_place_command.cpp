@@ -75,7 +75,8 @@ int run(const Options& options) {
   const SceneFile file = read_scene(options.scene.file, options.scene.overrides);
   const Model model = prepare(file.scene, {.points_per_pad = options.points});
   note_pad_plane(model,
-                 "searched in the pad plane; the push found is then followed in space");
+                 "pushes are sought and made in space; what no contact can do is not "
+                 "proved, and the curves of --csv and --plot are those of the pad plane");
   const Grasp grasp = chosen_grasp(model, {.at = options.at});
   PlaceReport report{.model = model};
   report.scene = options.scene.file;

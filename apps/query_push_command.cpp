@@ -130,9 +130,6 @@ nlohmann::ordered_json to_json(const Transition& transition,
 }
 
 int run_grip_range(const Options& options, const Model& model, const Push& push) {
-  note_pad_plane(model,
-                 "the range is found by pushes in space; what the grasp holds alone and "
-                 "the profile along the push are those of the pad plane");
   GripRangeOptions wanted;
   wanted.tolerance = 1e-3 * options.grip_tolerance_mm;
   wanted.transition.tolerance =

@@ -7,30 +7,17 @@
 
 #include "mechanics/certificate.h"
 #include "mechanics/contact_mode.h"
+#include "primitives/force_search.h"
+#include "primitives/linear_push.h"
+#include "primitives/space_grip.h"
 
 namespace prehensile {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Grip forces per decade that are tried before the ends are closed in on.
-constexpr int kPerDecade = 5;
-
 /// Halvings of the search for the least grip that holds.
 constexpr int kHalvings = 60;
-
-/// The same scene, gripped with another force.
-Model gripped(const Model& model, double force) {
-  Model other = model;
-  const std::array<double, 2>& mu = model.scene.gripper.friction;
-  other.scene.gripper.grip_force = force;
-  const double w = model.mass * model.scene.g_Wz;
-  other.jaw_force = jaw_forces(other.scene.gripper, w);
-  other.F = w == 0.0 ? (mu[0] + mu[1]) * force
-                     : mu[0] * other.jaw_force[0] + mu[1] * other.jaw_force[1];
-  if (other.cross_section) other.cross_section->grip_force = force;
-  return other;
-}
 
 /// Friction force of the pads per unit of grip force.
 double friction_of(const Model& model) {
@@ -108,14 +95,12 @@ class Search {
   /// Closes in on the end of the range between two forces.
   GripEnd between(double inside, double outside) const {
     GripEnd end;
-    while (std::abs(outside - inside) > options_.precision * inside) {
-      const double middle = std::sqrt(inside * outside);
-      (does(at(middle)) ? inside : outside) = middle;
-    }
-    end.force = inside;
-    end.beyond = outside;
-    end.inside = at(inside);
-    end.outside = at(outside);
+    const ForceEnd found = force_end(inside, outside, options_.precision,
+                                     [this](double force) { return does(at(force)); });
+    end.force = found.inside;
+    end.beyond = found.beyond;
+    end.inside = at(end.force);
+    end.outside = at(end.beyond);
     end.strayed = strayed(end.outside);
     return end;
   }
@@ -207,49 +192,37 @@ GripRange grip_range(const Model& model, const Grasp& start, const Push& push,
   const Search search(model, start, push, options);
   const LinearPush linear = as_linear(push);
   range.nominal = search.nominal();
+  const bool in_space = is_in_space(model, linear, options.transition);
+  range.in_space = in_space;
   for (int i = 0; i <= options.samples; ++i) {
-    range.profile.push_back(
-        grip_sample(model, start, linear, static_cast<double>(i) / options.samples));
+    const double s = static_cast<double>(i) / options.samples;
+    range.profile.push_back(in_space
+                                ? grip_sample_in_space(model, start, linear, s, options)
+                                : grip_sample(model, start, linear, s));
   }
-  const double per_grip = friction_of(model);
   const Vec2& g_O = model.contacts[linear.contact].g_O;
-  range.hold_start = least_to_hold(model, start.X_HO, g_O) / per_grip;
+  const auto hold = [&](const PlanarPose& X_HO, const Vec2& g) {
+    return in_space ? least_to_hold_in_space(model, linear.contact, X_HO, g, options)
+                    : least_to_hold(model, X_HO, g) / friction_of(model);
+  };
+  range.hold_start = hold(start.X_HO, g_O);
   const double tilt = range.nominal.theta - pusher_pose(linear, start.X_HO, 1.0).theta;
-  range.hold_end = least_to_hold(model, range.nominal, rotated(-tilt, g_O)) / per_grip;
+  range.hold_end = hold(range.nominal, rotated(-tilt, g_O));
 
-  // A grid of forces that contains the scene's own.
-  const double own =
-      std::clamp(model.scene.gripper.grip_force, options.least, options.greatest);
-  const auto force_at = [&](int i) {
-    return std::clamp(own * std::pow(10.0, static_cast<double>(i) / kPerDecade),
-                      options.least, options.greatest);
-  };
-  const int below =
-      static_cast<int>(std::ceil(kPerDecade * std::log10(own / options.least)));
-  const int above =
-      static_cast<int>(std::ceil(kPerDecade * std::log10(options.greatest / own)));
-  const auto does = [&](int i) {
-    return i >= -below && i <= above && search.does(search.at(force_at(i)));
-  };
-  int nearest = 0;
-  int distance = 0;
-  for (; distance <= std::max(below, above); ++distance) {
-    nearest = does(distance) ? distance : -distance;
-    if (nearest > 0 || does(nearest)) break;
-  }
-  if (distance > std::max(below, above)) {
+  const ForceGrid grid(model.scene.gripper.grip_force, options.least, options.greatest);
+  const std::optional<ForceRun> run =
+      run_of_forces(grid, [&](double force) { return search.does(search.at(force)); });
+  if (!run) {
     range.reason = "with no grip force of the search does the push what it should";
     return range;
   }
   range.found = true;
-  int low = nearest;
-  while (low > -below && does(low - 1)) --low;
-  int high = nearest;
-  while (high < above && does(high + 1)) ++high;
-  range.low = low == -below ? search.open(force_at(low))
-                            : search.between(force_at(low), force_at(low - 1));
-  range.high = high == above ? search.open(force_at(high))
-                             : search.between(force_at(high), force_at(high + 1));
+  range.low = run->low == grid.first()
+                  ? search.open(grid.at(run->low))
+                  : search.between(grid.at(run->low), grid.at(run->low - 1));
+  range.high = run->high == grid.last()
+                   ? search.open(grid.at(run->high))
+                   : search.between(grid.at(run->high), grid.at(run->high + 1));
   return range;
 }
 

@@ -5,7 +5,8 @@
 /// A line that sticks must exert a wrench that is linear in the grip force, so its limits
 /// at one place of the push are closed forms. A looser grip lets gravity win: the object
 /// falls, or slides along the pusher. A tighter grip asks the pusher for forces that it
-/// cannot exert.
+/// cannot exert. Where the push is followed in space the profile is too, by instants with
+/// one grip force after the other (space_grip.h).
 #pragma once
 
 #include <vector>
@@ -49,6 +50,7 @@ struct GripRange {
   double hold_start = kNan;  ///< [N] phase 1: the least grip that holds before the push
   double hold_end = kNan;    ///< [N] phase 4: and at the nominal end, the pusher gone
   std::vector<GripSample> profile;  ///< phases 2 and 3
+  bool in_space = false;            ///< all of it by spatial instants
 };
 
 /// The push does what it should if it is done to its end, within its guard, and leaves

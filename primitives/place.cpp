@@ -8,6 +8,7 @@
 #include "mechanics/planar_instant.h"
 #include "optimisation/nonlinear_program.h"
 #include "primitives/place_wrench.h"
+#include "primitives/space_place.h"
 
 namespace prehensile {
 namespace {
@@ -34,6 +35,19 @@ struct Trial {
   }
 };
 
+bool is_better(const PlacedPush& a, const PlacedPush& b, const PlaceOptions& options) {
+  if (!b.found) return true;
+  if (!options.least_force) return a.robust_slack > b.robust_slack;
+  const bool safe_a = a.robust_slack >= 0.0;
+  const bool safe_b = b.robust_slack >= 0.0;
+  return safe_a != safe_b ? safe_a : a.push_force < b.push_force;
+}
+
+void keep(const PlacedPush& placed, const PlaceOptions& options, PlacedPush& best) {
+  if (placed.found && is_better(placed, best, options)) best = placed;
+  if (!best.found && !placed.found) best = placed;
+}
+
 class Search {
  public:
   Search(const Model& model, const WantedMotion& wanted, const PlaceOptions& options)
@@ -57,7 +71,7 @@ class Search {
       Trial start = judge(0.0, grip);
       if (!std::isfinite(start.centre)) continue;
       const double centre = std::clamp(start.centre, -half_face, half_face);
-      keep(judge(centre, grip), best);
+      keep_trial(judge(centre, grip), best);
       if (contact_->is_point) {
         improve_grip(verdict, half_face, best);
         if (verdict.grip_low == verdict.grip_high) break;
@@ -65,7 +79,8 @@ class Search {
       }
       const double step = std::min(contact_->half_length, half_face) / 3.0;
       for (const double side : {-1.0, 1.0}) {
-        keep(judge(std::clamp(centre + side * step, -half_face, half_face), grip), best);
+        keep_trial(judge(std::clamp(centre + side * step, -half_face, half_face), grip),
+                   best);
       }
       if (verdict.grip_low == verdict.grip_high) break;
     }
@@ -81,20 +96,11 @@ class Search {
     out.slack = trial.slack;
     out.robust_slack = trial.robust_slack;
     const Model model = with_grip(model_of_scene_, trial.grip_force);
-    const PushContact& pusher = model.contacts[contact];
-    const PlanarGrasp grasp = grasp_at(model, wanted_.X_HO, pusher.g_O);
-    const PlanarDrive drive =
-        drive_at(pusher, trial.place, wanted_.X_HO, wanted_.twist_HO());
-    const PlanarInstant instant = solve_planar(grasp, drive);
-    out.status = instant.status;
-    out.push_force = instant.push_force;
-    out.certificate = certify(grasp, drive, instant).worst;
-    const double c = std::max(model.c, 1e-9);
-    const PlanarTwist difference = instant.V_HO - drive.V_HP;
-    out.twist_error = std::hypot(difference[0], difference[1], c * difference[2]) /
-                      std::hypot(drive.V_HP[0], drive.V_HP[1], c * drive.V_HP[2]);
-    out.found = usable(out.status) && out.twist_error <= kPlaceTwistTolerance &&
-                out.certificate <= 1e-6;
+    if (model.push_needs_space(model.contacts[contact])) {
+      make_in_space(model, wanted_, options_.margin, out);
+    } else {
+      make_in_plane(model, out);
+    }
     if (!wanted_.is_path) return out;
     out.forward = apply(model, {wanted_.X_HO, 0.0}, out.push);
     const PlanarPose end = pusher_pose(out.push, wanted_.X_HO, 1.0);
@@ -106,9 +112,59 @@ class Search {
     return out;
   }
 
+  /// The best push of a contact that needs space: that of the pad plane, if there is one,
+  /// and of a line the place where it sticks most firmly. The verdict becomes what was
+  /// found; that a contact cannot is not proved where the loads of the pads shift.
+  void place_in_space(ContactVerdict& verdict, PlacedPush& best) {
+    const int contact = verdict.contact;
+    PlacedPush own;
+    if (verdict.possible) {
+      const Trial trial = best_on(verdict, options_.least_force);
+      if (trial.slack >= -kMet) own = forward(contact, trial);
+    }
+    if (!model_of_scene_.contacts[contact].is_point) {
+      const SpacePlace found =
+          best_place_in_space(model_of_scene_, wanted_, contact, grip_.low, grip_.high);
+      evaluations_ += found.evaluations;
+      if (found.slack >= 0.0) {
+        const double grip =
+            options_.least_force
+                ? loosest_in_space(model_of_scene_, wanted_, contact, found.place,
+                                   grip_.low, found.grip_force, options_.margin)
+                : found.grip_force;
+        keep(forward(contact, {.place = found.place, .grip_force = grip}), options_, own);
+      }
+    }
+    verdict = {.contact = contact, .possible = own.found};
+    if (own.found) {
+      verdict.grip_low = verdict.grip_high = own.grip_force;
+    } else {
+      verdict.reason = "no push found that does it in space, which proves nothing";
+    }
+    if (std::isfinite(own.grip_force)) keep(own, options_, best);
+  }
+
   int evaluations() const { return evaluations_; }
 
  private:
+  /// The first instant by the exact planar solver.
+  void make_in_plane(const Model& model, PlacedPush& out) const {
+    const PushContact& pusher = model.contacts[out.push.contact];
+    const PlanarGrasp grasp = grasp_at(model, wanted_.X_HO, pusher.g_O);
+    const PlanarDrive drive =
+        drive_at(pusher, out.push.place, wanted_.X_HO, wanted_.twist_HO());
+    const PlanarInstant instant = solve_planar(grasp, drive);
+    out.status = instant.status;
+    out.push_force = instant.push_force;
+    out.certificate = certify(grasp, drive, instant).worst;
+    const double c = std::max(model.c, 1e-9);
+    const PlanarTwist difference = instant.V_HO - drive.V_HP;
+    out.twist_error = std::hypot(difference[0], difference[1], c * difference[2]) /
+                      std::hypot(drive.V_HP[0], drive.V_HP[1], c * drive.V_HP[2]);
+    out.found = usable(out.status) && out.twist_error <= kPlaceTwistTolerance &&
+                out.certificate <= 1e-6;
+  }
+
   void set_grip(double force) {
     const double range = grip_.high - grip_.low;
     const double share = range > 0.0 ? (force - grip_.low) / range : 0.0;
@@ -147,7 +203,7 @@ class Search {
     return trial;
   }
 
-  void keep(const Trial& trial, Trial& best) const {
+  void keep_trial(const Trial& trial, Trial& best) const {
     const bool better = !std::isfinite(best.slack) ||
                         trial.merit(least_force_) > best.merit(least_force_);
     if (std::isfinite(trial.slack) && better) best = trial;
@@ -170,7 +226,7 @@ class Search {
     program.objective = [&](std::span<const double> x, std::span<double>) {
       const double grip = verdict.grip_low + (x.size() > 1 ? x[1] * range : 0.0);
       const Trial trial = judge(x[0] * half_face, grip);
-      keep(trial, best);
+      keep_trial(trial, best);
       const double merit = trial.merit(least_force_);
       return std::isfinite(merit) ? -merit : 1e6;
     };
@@ -191,7 +247,7 @@ class Search {
       const Trial start = judge(0.0, grip);
       if (!std::isfinite(start.centre)) return 1e6;
       const Trial trial = judge(std::clamp(start.centre, -half_face, half_face), grip);
-      keep(trial, best);
+      keep_trial(trial, best);
       const double merit = trial.merit(least_force_);
       return std::isfinite(merit) ? -merit : 1e6;
     };
@@ -209,14 +265,6 @@ class Search {
   bool least_force_ = false;
   int evaluations_ = 0;
 };
-
-bool is_better(const PlacedPush& a, const PlacedPush& b, const PlaceOptions& options) {
-  if (!b.found) return true;
-  if (!options.least_force) return a.robust_slack > b.robust_slack;
-  const bool safe_a = a.robust_slack >= 0.0;
-  const bool safe_b = b.robust_slack >= 0.0;
-  return safe_a != safe_b ? safe_a : a.push_force < b.push_force;
-}
 
 std::string_view fault_of(const Model& model, const WantedMotion& wanted,
                           const PlaceOptions& options) {
@@ -283,7 +331,12 @@ PlaceAnswer find_place(const Model& model, const WantedMotion& wanted,
   answer.verdicts = verdicts_of(model, wanted, options);
   Search search(model, wanted, options);
   bool all_proved = true;
-  for (const ContactVerdict& verdict : answer.verdicts) {
+  for (ContactVerdict& verdict : answer.verdicts) {
+    if (model.push_needs_space(model.contacts[verdict.contact])) {
+      all_proved = false;
+      search.place_in_space(verdict, answer.best);
+      continue;
+    }
     if (!verdict.possible) {
       all_proved = all_proved && proves(model, wanted, options, verdict);
       continue;
@@ -296,8 +349,7 @@ PlaceAnswer find_place(const Model& model, const WantedMotion& wanted,
       trial = search.best_on(verdict, false);
       placed = search.forward(verdict.contact, trial);
     }
-    if (placed.found && is_better(placed, answer.best, options)) answer.best = placed;
-    if (!answer.best.found && !placed.found) answer.best = placed;
+    keep(placed, options, answer.best);
   }
   answer.evaluations = search.evaluations();
   if (answer.best.found) {

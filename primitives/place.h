@@ -8,6 +8,9 @@
 /// one twist proves it: no force of the contact takes power from it, and the wanted
 /// wrench does.
 ///
+/// Where a contact needs space, neither holds: loads shift, and the wrench of the pads
+/// with them. There places are tried by spatial instants, and nothing is proved.
+///
 /// Source: the future work of the paper (section VIII).
 #pragma once
 
@@ -73,7 +76,7 @@ struct PlacedPush {
   double slack = kNan;         ///< as in StickTest, least along the path, nominal
   double robust_slack = kNan;  ///< least over the margin
   double push_force = kNan;    ///< [N] at the start
-  /// Forward, by the exact solver with the real pads:
+  /// Forward, by the exact solver with the real pads, the spatial one where needed:
   InstantStatus status = InstantStatus::kNotRun;
   double certificate = kNan;   ///< worst entry
   double twist_error = kNan;   ///< against the wanted twist, relative; angles weigh c

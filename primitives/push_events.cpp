@@ -130,7 +130,10 @@ void PushRun<Instant>::look_at_block() {
     const double lacks = length_of(rate - step_.rate_at(low));
     const double continued = (low - 1.0) * step_.h * lacks;
     lawful = lawful && found && continued <= control_.allowed(step_.h);
-    if (lawful && *std::min_element(left.begin(), left.end()) >= 0.0) {
+    // From afar another motion may have been met there than from here.
+    if (goes_on(high)) {
+      control_.unblock();
+    } else if (lawful && *std::min_element(left.begin(), left.end()) >= 0.0) {
       error_ += continued;
       record_.add_slip(std::abs(step_.at(low)[0] - q_[0]));
       q_ = step_.at(low);

@@ -47,6 +47,10 @@ class PushInstant {
   void set_aside() { now_ = 1 - now_; }
   void bring_back() { now_ = 1 - now_; }
 
+  /// A mode has one motion, wherever it is sought from.
+  void keep() {}
+  void resume() {}
+
   /// The last answer is that of `solve`, not of a mode.
   bool is_solved() const { return answer().solved; }
 

@@ -45,6 +45,7 @@ void PushRun<Instant>::advance() {
   step_.s = s_;
   step_.y = q_;
   step_.rate = rate_;
+  instant_.resume();
   if (!(rides() ? ride() : integrate())) return;
 
   const Crossing crossing = first_crossing();
@@ -130,6 +131,7 @@ void PushRun<Instant>::accept(double share) {
   control_.passed(s_);
   if (!whole) return;  // the instant there is still to be solved
   rate_ = instant_.rate();
+  instant_.keep();
   margin_ = mode_margin();
   if (instant_.is_solved()) record_.add(instant_.sample(s_, psi_));
   const bool looks = !rides() && control_.blocked() != kNever && !record_.stopped();
@@ -238,6 +240,7 @@ bool PushRun<Instant>::solve_here() {
     return false;
   }
   rate_ = instant_.rate();
+  instant_.keep();
   return true;
 }
 

@@ -130,7 +130,13 @@ bool PushRun<Instant>::integrate() {
     land_at_kink();
     return false;
   }
-  if (stiff_) doubt_stiff_step(low_pivot != high_pivot);
+  const bool kink = low_pivot != high_pivot;
+  if (stiff_) {
+    doubt_stiff_step(kink);
+  } else if (kink && !Instant::kSmoothBeyondMode) {
+    // In space a change of the loaded points is known for a kink, however small.
+    step_error_ = std::max(step_error_, kDoubtOfKink * length_of(step_.defect));
+  }
   look_inside();
   return true;
 }
@@ -141,6 +147,7 @@ template <class Instant>
 template <class Rate>
 double PushRun<Instant>::look_at_nodes(const BaseStep& base, const Rate& rate) {
   instant_.set_aside();
+  instant_.resume();
   double failed_at = kNever;
   std::array<Vec2, 2> rates;
   for (std::size_t i = 0; i < 2 && failed_at == kNever; ++i) {

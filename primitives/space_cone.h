@@ -2,6 +2,9 @@
 /// over, so its border is found by spatial instants.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "primitives/motion_cone.h"
 
 namespace prehensile {
@@ -18,10 +21,31 @@ SpatialVerdict sticks_in_space(const Model& model, const Grasp& grasp, int conta
                                double place, double direction,
                                double omega_per_speed) noexcept;
 
-/// The cone of the pad plane made one of space, with the same slices: the nominal part by
-/// instants, the robust part as far as it lies in that. Rates of turn narrower than a
-/// twentieth of the range of atan(c omega / speed) may be missed. A second or so.
+/// One member of a box of uncertainty, compiled for spatial instants.
+struct SpaceMember {
+  Model model;
+  Grasp grasp;
+  double place = 0.0;
+  double turned = 0.0;  ///< [rad] error of the direction of the push
+};
+
+/// The member of the box around a straight push with this contact and place; none where
+/// the scene is none, the pads are off the object or have no friction.
+std::optional<SpaceMember> space_member(const Model& model, const Grasp& grasp,
+                                        int contact, double place,
+                                        const UncertaintyBox& box, const BoxPoint& at);
+
+/// `sticks_in_space` with the member's errors.
+SpatialVerdict sticks_in_space(const SpaceMember& member, int contact, double direction,
+                               double omega_per_speed) noexcept;
+
+/// The cone of space with the slices of that of the pad plane. The robust part is what of
+/// the nominal one sticks with every member; edges of it are found to 1e-6 rad, and every
+/// edge of a range sticks with all. Rates of turn narrower than a twentieth of the range
+/// of atan(c omega / speed) may be missed, and gaps that a member leaves within a range.
+/// A second or so, and for each hundred members as much again.
 MotionCone cone_in_space(const Model& model, const Grasp& grasp, int contact,
-                         double place, const MotionCone& flat);
+                         double place, const MotionCone& flat,
+                         const std::vector<SpaceMember>& members = {});
 
 }  // namespace prehensile

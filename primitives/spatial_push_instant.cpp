@@ -104,7 +104,6 @@ PushStop SpatialPushInstant::solve(const Seat& seat, double s, const Vec2& q,
   now.answered = true;
   now.probed = probe;
   now.stop = ask(now);
-  if (now.stop) warm_.valid = false;
   return now.stop;
 }
 
@@ -118,18 +117,22 @@ PushStop SpatialPushInstant::ask(Answer& now) noexcept {
             "the jaws cannot carry gravity along the closing direction"};
   }
   ++count_;
-  now.instant = solve_spatial(now.problem, options_, &warm_);
+  SpatialWarmStart warm = warm_;
+  now.instant = solve_spatial(now.problem, options_, &warm);
   if (now.instant.status == InstantStatus::kOutOfIterations) {
     // A looser answer is better than none; the certificate has the last word.
     SpatialSolveOptions loose = options_;
     loose.tolerance = kLooseTolerance;
-    now.instant = solve_spatial(now.problem, loose, &warm_);
+    now.instant = solve_spatial(now.problem, loose, &warm);
   }
   if (const PushStop stop = stop_of(now.instant.status)) return stop;
   read(now);
   now.out_of_plane = leaves_plane(now);
   now.pattern = pattern_of(now.problem, now.instant);
-  if (now.out_of_plane <= 1.0) return {};
+  if (now.out_of_plane <= 1.0) {
+    warm_ = warm;
+    return {};
+  }
   return {kLeavesPlane, EventKind::kOutOfPlane, way_out(now)};
 }
 

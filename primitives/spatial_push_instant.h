@@ -44,6 +44,13 @@ class SpatialPushInstant {
 
   void set_aside() { now_ = 1 - now_; }
   void bring_back() { now_ = 1 - now_; }
+
+  /// Where motions lie next to each other the answer is the one next to the last. `keep`
+  /// marks the answer at a place that the push has come to, and `resume` goes on from
+  /// there: trials beyond do not choose the motion.
+  void keep() { kept_ = {.valid = !answer().stop, .last = answer().instant}; }
+  void resume() { warm_ = kept_; }
+
   bool is_solved() const { return !answer().stop; }
 
   /// Points that carry load, and how the pusher's do: the rate has a kink where that
@@ -101,6 +108,7 @@ class SpatialPushInstant {
 
   std::array<Answer, 2> answers_;
   SpatialWarmStart warm_;
+  SpatialWarmStart kept_;
   int now_ = 0;
   int count_ = 0;
 };

@@ -109,8 +109,8 @@ TEST(Program, WhatFallsThroughTheJawsIsANegativeAnswer) {
   }
 }
 
-/// Pushes are followed in space where the scene needs it, and only there; a search in the
-/// pad plane says that it is one.
+/// Pushes, cones, grip forces and places are those of space where the scene needs it, and
+/// only there; the answers say so, and what stays of the pad plane is named.
 TEST(Program, PushesAreFollowedInSpaceWhereTheSceneNeedsIt) {
   const std::string push = "query push problems/";
   const Outcome level = run_program(push + "paper/slide.yaml --travel-mm 5 --json");
@@ -129,7 +129,40 @@ TEST(Program, PushesAreFollowedInSpaceWhereTheSceneNeedsIt) {
   const Outcome text = run_program(push + "tilted_hand.yaml --travel-mm 5");
   EXPECT_NE(text.out.find("followed in space"), std::string::npos);
   const Outcome place = run_program("query place problems/tilted_hand.yaml --to 5,0,0");
-  EXPECT_NE(place.err.find("note: searched in the pad plane"), std::string::npos);
+  EXPECT_EQ(place.exit_code, 0) << place.out;
+  EXPECT_NE(place.err.find("those of the pad plane"), std::string::npos);
+  const Outcome away =
+      run_program("query place problems/tilted_hand.yaml --twist=-5,0,0");
+  EXPECT_EQ(away.exit_code, 1);
+  EXPECT_NE(away.out.find("not found"), std::string::npos);
+  EXPECT_EQ(away.out.find("impossible"), std::string::npos);
+  EXPECT_FALSE(
+      json::parse(
+          run_program("query cone problems/paper/slide.yaml --json --samples 0").out)
+          .at("in_space")
+          .get<bool>());
+  const Outcome grip =
+      run_program(push + "tilted_hand.yaml --travel-mm 5 --grip-range --json");
+  EXPECT_EQ(grip.err.find("note:"), std::string::npos);
+  EXPECT_TRUE(json::parse(grip.out).at("in_space").get<bool>());
+}
+
+/// Members that the robust cone has not seen stick in space.
+TEST(Program, RobustConesAreThoseOfSpaceWhereTheSceneNeedsIt) {
+  const Outcome told = run_program(
+      "query cone problems/tilted_hand.yaml --vary "
+      "friction=0.1,grip_force=0.1,place_mm=1 "
+      "--samples 16 --check 400 --json");
+  ASSERT_EQ(told.exit_code, 0) << told.err;
+  EXPECT_EQ(told.err.find("note:"), std::string::npos);
+  const json cone = json::parse(told.out);
+  EXPECT_TRUE(cone.at("in_space").get<bool>());
+  const json& check = cone.at("check");
+  EXPECT_FALSE(check.contains("limit_surface_agrees"));
+  EXPECT_GE(check.at("exact_agrees").get<int>(),
+            0.99 * check.at("exact_asked").get<int>());
+  EXPECT_GT(check.at("robust_asked"), 20);
+  EXPECT_EQ(check.at("robust_sticks"), check.at("robust_asked"));
 }
 
 /// A straight slide of an object with mass: the force grows by mass times acceleration,

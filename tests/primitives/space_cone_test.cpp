@@ -1,8 +1,11 @@
 /// Motion cones in space.
 #include "primitives/space_cone.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -91,20 +94,121 @@ TEST(SpaceCone, EdgesAreWhereInstantsChange) {
   EXPECT_GE(edges, 60);
 }
 
-// The robust part stays inside the nominal one.
-TEST(SpaceCone, RobustLiesInNominal) {
+std::vector<SpaceMember> corners_of(const Model& model, const Grasp& start,
+                                    double place) {
+  UncertaintyBox box;
+  box[Unknown::kFriction] = box[Unknown::kGripForce] = 0.1;
+  box[Unknown::kPlace] = 1e-3;
+  std::vector<SpaceMember> members;
+  for (std::uint64_t i = 0; i < 8; ++i) {
+    std::optional<SpaceMember> member =
+        space_member(model, start, 0, place, box, corner(box, i));
+    if (member) members.push_back(std::move(*member));
+  }
+  return members;
+}
+
+// A motion in the robust cone sticks in the scene and in every member; beyond an edge
+// that is not nominal, some member slips.
+TEST(SpaceCone, RobustEdgesAreWhereAMemberSlips) {
+  int edges = 0;
+  int narrower = 0;
+  for (int index = 0; index < 24; ++index) {
+    const RandomPush c = random_spatial_push(53, index);
+    const Model model = prepare(c.scene);
+    const Grasp& start = c.scene.start;
+    const double place = c.push.place;
+    const MotionCone flat = motion_cone(cone_member(model, 0, place, start.X_HO), {}, 13);
+    const std::vector<SpaceMember> members = corners_of(model, start, place);
+    const MotionCone cone = cone_in_space(model, start, 0, place, flat, members);
+    EXPECT_EQ(cone.members, static_cast<int>(members.size()));
+    const auto all_stick = [&](double direction, double rate) {
+      return std::all_of(members.begin(), members.end(), [&](const SpaceMember& member) {
+        return sticks_in_space(member, 0, direction, rate).margin >= 0.0;
+      });
+    };
+    for (const ConeSlice& slice : cone.slices) {
+      for (int i = 0; i < slice.robust.count; ++i) {
+        const KappaSet::Interval& robust = slice.robust.intervals[i];
+        for (const double edge : {robust.lo, robust.hi}) {
+          if (std::isinf(edge)) continue;
+          ++edges;
+          EXPECT_TRUE(slice.nominal.contains(edge)) << index;
+          EXPECT_TRUE(all_stick(slice.direction, edge)) << index;
+          const double beyond =
+              std::tan(std::atan(cone.c * edge) + (edge == robust.lo ? -1e-4 : 1e-4)) /
+              cone.c;
+          if (!slice.nominal.contains(beyond)) continue;
+          ++narrower;
+          EXPECT_FALSE(all_stick(slice.direction, beyond)) << index;
+        }
+      }
+    }
+    for (const DirectionRange& range : cone.robust) {
+      EXPECT_TRUE(all_stick(range.lo, 0.0) && all_stick(range.hi, 0.0)) << index;
+    }
+  }
+  EXPECT_GT(edges, 30);
+  EXPECT_GT(narrower, 20);
+}
+
+// Where the scene is symmetric a robust motion sticks in every member as the pad plane
+// has it.
+TEST(SpaceCone, RobustIsThatOfThePadPlaneWhereTheSceneIsSymmetric) {
+  int asked = 0;
+  for (int index = 0; index < 30; ++index) {
+    const RandomPush c = random_push(54, index);
+    const Model model = prepare(c.scene);
+    if (model.contacts[0].is_point) continue;
+    const Grasp& start = c.scene.start;
+    const double place = c.push.place;
+    const MotionCone flat = motion_cone(cone_member(model, 0, place, start.X_HO), {}, 13);
+    const std::vector<SpaceMember> members = corners_of(model, start, place);
+    const MotionCone cone = cone_in_space(model, start, 0, place, flat, members);
+    // By the planar instants of the members.
+    const auto all_stick = [&](double direction, double turn) {
+      return std::all_of(members.begin(), members.end(), [&](const SpaceMember& member) {
+        const LinearPush push{.place = member.place,
+                              .e = rotated(direction, member.model.contacts[0].n),
+                              .travel = 0.01,
+                              .turn = 0.01 * std::tan(turn) / cone.c};
+        PushInstant planar(member.model, push, member.grasp, {});
+        const Seat seat = planar.geometry().first();
+        return !planar.solve(seat, 0.0, Vec2::Zero()) &&
+               planar.margin(seat, Regime::kStick).least() >= 0.0;
+      });
+    };
+    for (const ConeSlice& slice : cone.slices) {
+      for (int i = 0; i < slice.robust.count; ++i) {
+        const KappaSet::Interval& robust = slice.robust.intervals[i];
+        if (std::isinf(robust.lo) || std::isinf(robust.hi)) continue;
+        const double low = std::atan(cone.c * robust.lo);
+        const double high = std::atan(cone.c * robust.hi);
+        if (high - low < 1e-3) continue;
+        ++asked;
+        EXPECT_TRUE(all_stick(slice.direction, low + 1e-4)) << index;
+        EXPECT_TRUE(all_stick(slice.direction, high - 1e-4)) << index;
+        const double beyond = std::tan(high + 1e-4) / cone.c;
+        if (slice.nominal.contains(beyond)) {
+          EXPECT_FALSE(all_stick(slice.direction, high + 1e-4)) << index;
+        }
+      }
+    }
+  }
+  EXPECT_GT(asked, 20);
+}
+
+TEST(SpaceCone, WithoutMembersRobustIsNominal) {
   const RandomPush c = random_spatial_push(53, 2);
   const Model model = prepare(c.scene);
   const MotionCone flat =
-      motion_cone(cone_member(model, 0, c.push.place, c.scene.start.X_HO), {}, 19);
+      motion_cone(cone_member(model, 0, c.push.place, c.scene.start.X_HO), {}, 7);
   const MotionCone cone = cone_in_space(model, c.scene.start, 0, c.push.place, flat);
   for (const ConeSlice& slice : cone.slices) {
+    ASSERT_EQ(slice.robust.count, slice.nominal.count);
     for (int i = 0; i < slice.robust.count; ++i) {
-      const KappaSet::Interval& robust = slice.robust.intervals[i];
-      const double middle = std::isinf(robust.lo)   ? robust.hi
-                            : std::isinf(robust.hi) ? robust.lo
-                                                    : 0.5 * (robust.lo + robust.hi);
-      EXPECT_TRUE(slice.nominal.contains(middle));
+      EXPECT_NEAR(std::atan(cone.c * slice.robust.intervals[i].lo),
+                  std::atan(cone.c * slice.nominal.intervals[i].lo), 1e-9);
     }
   }
 }

@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -7,6 +8,7 @@
 #include "apps/commands.h"
 #include "apps/json_number.h"
 #include "apps/table.h"
+#include "io/document.h"
 #include "mesh/face_pairs.h"
 #include "mesh/urdf.h"
 
@@ -69,6 +71,17 @@ MeshReport examine(const std::string& file, double unit) {
   return report;
 }
 
+/// Longest side of the box around a mesh [m].
+double extent(const TriangleMesh& mesh) {
+  Vec3 low = mesh.vertices.front();
+  Vec3 high = low;
+  for (const Vec3& v : mesh.vertices) {
+    low = low.cwiseMin(v);
+    high = high.cwiseMax(v);
+  }
+  return (high - low).maxCoeff();
+}
+
 std::string describe(const MeshReport& report) {
   std::string out;
   if (report.mesh.triangles.empty()) return "refused: " + report.refusal + '\n';
@@ -77,6 +90,11 @@ std::string describe(const MeshReport& report) {
               1e6 * report.properties.volume);
   if (report.mass) out += text(", mass %.4g kg (URDF)", *report.mass);
   out += '\n';
+  constexpr double kLongest = 2.0;  // [m] of what a gripper holds
+  if (const double size = extent(report.mesh); size > kLongest) {
+    out +=
+        text("  note: %.3g m long: --unit mm, if the file counts in millimetres\n", size);
+  }
   for (const std::string& repair : report.mesh.repairs)
     out += "  mended: " + repair + '\n';
   for (const std::string& pair : report.passed_over)
@@ -147,6 +165,9 @@ int run(const Options& options) {
   bool all = true;
   nlohmann::ordered_json reports = nlohmann::ordered_json::array();
   for (const std::string& file : options.files) {
+    if (!std::filesystem::is_regular_file(file)) {
+      throw BadInput(file + ": no such file: expected a mesh (STL or OBJ)");
+    }
     const MeshReport report = examine(file, metres_of(options.unit));
     all = all && report.refusal.empty();
     if (options.json) {

@@ -1,5 +1,6 @@
 /// The command line: parses, dispatches, and turns every failure into one message and an
 /// exit code.
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <utility>
@@ -37,6 +38,24 @@ void refuse_unknown_command(const CLI::App& parent, const char* word) {
     known += (known.empty() ? "" : ", ") + command->get_name();
   }
   throw BadInput(std::string(word) + ": no such command: expected one of " + known);
+}
+
+/// The first word of the command line that the command does not know; CLI11 names them
+/// last to first.
+std::string unknown_word(const CLI::App& app, int argc, char** argv) {
+  const CLI::App* command = &app;
+  std::string name;
+  while (!command->get_subcommands().empty()) {
+    command = command->get_subcommands().front();
+    name += command->get_name() + ' ';
+  }
+  const std::vector<std::string> unknown = app.remaining(true);
+  for (int i = 1; i < argc; ++i) {
+    if (std::find(unknown.begin(), unknown.end(), argv[i]) == unknown.end()) continue;
+    return std::string(argv[i]) + ": not expected here: expected what `prehensile " +
+           name + "--help` lists";
+  }
+  return name + ": a word that is not expected";
 }
 
 int run(int argc, char** argv) {
@@ -87,6 +106,8 @@ int run(int argc, char** argv) {
   if (argc > 2 && argv[1] == query.get_name()) refuse_unknown_command(query, argv[2]);
   try {
     app.parse(argc, argv);
+  } catch (const CLI::ExtrasError&) {
+    throw BadInput(unknown_word(app, argc, argv));
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kDone : kBadInput;
   }

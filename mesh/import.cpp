@@ -103,7 +103,11 @@ void check_text_stl(const std::string& bytes, const std::string& name) {
                        line.starts_with("facet normal ") || line == "outer loop" ||
                        line.starts_with("vertex ") || line == "endloop" ||
                        line == "endfacet" || line.starts_with("endsolid");
-    if (!known) refuse(name, "neither text nor binary STL of its length");
+    if (!known)
+      refuse(
+          name,
+          "neither a text STL nor a binary one of the length that its count of triangles "
+          "says");
     if (line.starts_with("vertex ") && !has_only(line.substr(7), "0123456789+-.eE \t")) {
       refuse(name, "a vertex that is not made of numbers");
     }

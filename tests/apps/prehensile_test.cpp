@@ -62,6 +62,28 @@ TEST(Program, ReferenceSaysWhyTheCircularCertificateRejectsIt) {
       << instant.out;
 }
 
+TEST(Program, NamesTheFirstWordThatItDoesNotKnow) {
+  const Outcome outcome =
+      run_program("query instant problems/paper/slide.yaml --sketch out.svg --loud");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.err,
+            "--sketch: not expected here: expected what `prehensile query instant "
+            "--help` lists\n");
+}
+
+TEST(Program, MeshesSayWhenTheyAreLongerThanAnyHandHolds) {
+  if (!PREHENSILE_WITH_MESHES) GTEST_SKIP() << "built without meshes";
+  const std::string mesh = "mesh problems/meshes/bracket.obj";
+  const Outcome metres = run_program(mesh);
+  EXPECT_EQ(metres.exit_code, 0) << metres.err;
+  EXPECT_NE(metres.out.find("note: 80 m long: --unit mm"), std::string::npos)
+      << metres.out;
+  EXPECT_EQ(run_program(mesh + " --unit mm").out.find("note:"), std::string::npos);
+  const Outcome none = run_program("mesh no_such_file.stl");
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_EQ(none.err, "no_such_file.stl: no such file: expected a mesh (STL or OBJ)\n");
+}
+
 TEST(Program, SpatialSolverTakesPushersOffTheMidPlane) {
   const std::string slide = "query instant problems/paper/slide.yaml ";
   const Outcome planar = run_program(slide + "--json");

@@ -55,7 +55,6 @@ class Barrier {
     }
     x_[kRest] = 0.5 * p_.rest;
     x_[kRestTau] = p_.rest;
-    x_[kV] = 0.0;
     const double worst = least_slack();
     x_[kV] = std::max(0.0, -worst) * 1.5 + depth / kPieces;
   }
@@ -93,13 +92,11 @@ class Barrier {
   }
 
   const RunMultipliers& multipliers() const { return y_; }
-
   double violation() const { return x_[kV]; }
-
-  /// t.p after piece k, from the start.
-  double lateral(int k) const { return x_[3 * k]; }
-
   double share() const { return x_[kShare]; }
+
+  /// t.p from the start, after piece k and at the end.
+  double lateral(int k) const { return x_[3 * k]; }
   double end_lateral() const { return lateral(kPieces - 1) + x_[kRestU]; }
   double end_depth() const { return p_.level[kPieces - 1] + x_[kRest]; }
 
@@ -374,7 +371,7 @@ double run_bound(const RunQuestion& question) noexcept {
     const double value = barrier.objective();
     if (value < question.cap && value - best <= kNearlyOptimal * question.cap) break;
   }
-  return best;
+  return std::min(best, question.cap);
 }
 
 bool run_path(const RunQuestion& question, RunPath& path) noexcept {
@@ -389,8 +386,8 @@ bool run_path(const RunQuestion& question, RunPath& path) noexcept {
     if (dual_bound(program, barrier.multipliers()) >= question.cap) return false;
   }
   const RunLaw& law = question.laws->contacts[question.contact];
-  const auto place = [&](double depth, double lateral) {
-    return Vec2(question.start - depth * law.n + lateral * law.t);
+  const auto place = [&](double depth, double lateral) -> Vec2 {
+    return question.start - depth * law.n + lateral * law.t;
   };
   for (int k = 0; k + 1 < kPieces; ++k) {
     path.places[k] = place(program.level[k], barrier.lateral(k));

@@ -20,7 +20,8 @@ TEST(RunSearch, UsesTolerancesWhereTheySaveAPlacement) {
     const SearchModel search = prepare_search(model, Margin::none());
     const FlatState start = flat_state(scene.start);
     Work work{.budget = 1'000'000};
-    const Limits limits({}, work);
+    const PlanOptions options;
+    const Limits limits(options, work);
     Goal exact = *scene.goal;
     exact.position_tolerance = 1e-9;
     const auto to_goal = search_runs(search, start, exact, 3.0, limits, work);

@@ -71,17 +71,6 @@ MeshReport examine(const std::string& file, double unit) {
   return report;
 }
 
-/// Longest side of the box around a mesh [m].
-double extent(const TriangleMesh& mesh) {
-  Vec3 low = mesh.vertices.front();
-  Vec3 high = low;
-  for (const Vec3& v : mesh.vertices) {
-    low = low.cwiseMin(v);
-    high = high.cwiseMax(v);
-  }
-  return (high - low).maxCoeff();
-}
-
 std::string describe(const MeshReport& report) {
   std::string out;
   if (report.mesh.triangles.empty()) return "refused: " + report.refusal + '\n';
@@ -91,7 +80,7 @@ std::string describe(const MeshReport& report) {
   if (report.mass) out += text(", mass %.4g kg (URDF)", *report.mass);
   out += '\n';
   constexpr double kLongest = 2.0;  // [m] of what a gripper holds
-  if (const double size = extent(report.mesh); size > kLongest) {
+  if (const double size = extent(report.mesh.vertices).maxCoeff(); size > kLongest) {
     out +=
         text("  note: %.3g m long: --unit mm, if the file counts in millimetres\n", size);
   }

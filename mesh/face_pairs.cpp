@@ -19,16 +19,6 @@ constexpr double kSamePlane = 1e-4;        // of the size of the body
 constexpr std::size_t kMostOutline = 200;  // vertices, as `check` allows
 constexpr std::size_t kMostPlanes = 400;
 
-double size_of(const TriangleMesh& mesh) {
-  Vec3 low = mesh.vertices.front();
-  Vec3 high = low;
-  for (const Vec3& v : mesh.vertices) {
-    low = low.cwiseMin(v);
-    high = high.cwiseMax(v);
-  }
-  return (high - low).norm();
-}
-
 std::array<Vec3, 3> corners(const TriangleMesh& mesh, std::size_t triangle) {
   const auto& t = mesh.triangles[triangle];
   return {mesh.vertices[static_cast<std::size_t>(t[0])],
@@ -63,7 +53,7 @@ std::vector<FlatFace> flat_faces(const TriangleMesh& mesh, double least) {
   }
   std::stable_sort(parts.begin(), parts.end(),
                    [](const Part& a, const Part& b) { return a.area > b.area; });
-  const double same_plane = kSamePlane * size_of(mesh);
+  const double same_plane = kSamePlane * extent(mesh.vertices).norm();
   std::vector<FlatFace> faces;
   for (const Part& part : parts) {
     const std::array<Vec3, 3> corner = corners(mesh, part.triangle);
@@ -127,7 +117,7 @@ PlaneRegion projected(const TriangleMesh& mesh, const Frame& frame, const Keep& 
 /// What both jaws reach: common to both faces, nothing of the body in front of it.
 PlaneRegion region_of(const TriangleMesh& mesh, const Frame& frame, double low,
                       double high) {
-  const double slack = kSamePlane * size_of(mesh);
+  const double slack = kSamePlane * extent(mesh.vertices).norm();
   const auto lies_at = [&](double offset) {
     return [&frame, offset, slack](const Vec3& a, const Vec3& b, const Vec3& c) {
       return std::abs(frame.z.dot(a) - offset) <= 2.0 * slack &&
@@ -233,7 +223,7 @@ Vec2 heights_at(const TriangleMesh& mesh, const Eigen::Isometry3d& X_OM,
 
 std::vector<FacePair> find_face_pairs(const TriangleMesh& mesh, double least_area) {
   const std::vector<FlatFace> faces = flat_faces(mesh, 0.5 * least_area);
-  const double size = size_of(mesh);
+  const double size = extent(mesh.vertices).norm();
   std::vector<FacePair> pairs;
   for (const auto& [i, j] : opposite_faces(faces, 1e-3 * size)) {
     FacePair pair;
@@ -265,7 +255,7 @@ std::vector<FacePair> find_face_pairs(const TriangleMesh& mesh, double least_are
 
 HeldBody body_between(const TriangleMesh& mesh, const FacePair& pair) {
   HeldBody body;
-  const double size = size_of(mesh);
+  const double size = extent(mesh.vertices).norm();
   const Frame seen(pair.closing);
   const MeshProperties properties = properties_of(mesh);
 

@@ -30,21 +30,11 @@ std::string counted(std::size_t count, const char* what) {
   return text;
 }
 
-double size_of(const std::vector<Vec3>& vertices) {
-  Vec3 low = vertices.front();
-  Vec3 high = low;
-  for (const Vec3& v : vertices) {
-    low = low.cwiseMin(v);
-    high = high.cwiseMax(v);
-  }
-  return (high - low).maxCoeff();
-}
-
 /// Vertices that coincide within a millionth of the size become one; faces that lose
 /// their area with that, or never had any, are dropped.
 void weld(TriangleMesh& mesh) {
   constexpr double kSame = 1e-6;
-  const double cell = kSame * size_of(mesh.vertices);
+  const double cell = kSame * extent(mesh.vertices).maxCoeff();
   std::map<std::array<std::int64_t, 3>, int> places;
   std::vector<Vec3> kept;
   std::vector<int> index(mesh.vertices.size());
@@ -225,7 +215,7 @@ void mend(TriangleMesh& mesh, const std::string& name) {
              "expected a body that a gripper can hold (is the unit right?)");
     }
   }
-  if (!(size_of(mesh.vertices) > 1e-6)) {
+  if (!(extent(mesh.vertices).maxCoeff() > 1e-6)) {
     refuse(name, "smaller than 1e-6 m: expected a body (is the unit right?)");
   }
   weld(mesh);
@@ -235,13 +225,23 @@ void mend(TriangleMesh& mesh, const std::string& name) {
   std::vector<Shell> shells = oriented_shells(mesh, edges, name, turned);
   turn_outwards(mesh, shells, turned);
   if (turned > 0) mesh.repairs.push_back(counted(turned, "faces turned outwards"));
-  const double size = size_of(mesh.vertices);
+  const double size = extent(mesh.vertices).maxCoeff();
   if (!(properties_of(mesh).volume > 1e-9 * size * size * size)) {
     refuse(name, "no volume: expected a solid body");
   }
 }
 
 }  // namespace
+
+Vec3 extent(const std::vector<Vec3>& vertices) {
+  Vec3 low = vertices.front();
+  Vec3 high = low;
+  for (const Vec3& v : vertices) {
+    low = low.cwiseMin(v);
+    high = high.cwiseMax(v);
+  }
+  return high - low;
+}
 
 TriangleMesh mesh_from_bytes(const std::string& bytes, const std::string& name,
                              double unit) {

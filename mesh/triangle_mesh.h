@@ -26,6 +26,9 @@ struct TriangleMesh {
   std::vector<std::string> repairs;           ///< what was mended, for people
 };
 
+/// Sides of the box around the vertices, along the axes of M [m]; at least one vertex.
+Vec3 extent(const std::vector<Vec3>& vertices);
+
 inline constexpr std::uintmax_t kLargestMesh = 50'000'000;  ///< bytes
 inline constexpr int kMostTriangles = 50'000;
 

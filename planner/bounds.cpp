@@ -198,6 +198,10 @@ constexpr double kAcceptance = 1e-6;
 /// bound is given away that a proof with the bound itself as target finds it, too.
 constexpr double kToProveAgain = 1e-3;
 
+/// J beyond which nothing is proved: plans this dear turn many times, each whole turn has
+/// a question of its own, and a plan file may say what it likes.
+constexpr double kGreatestTarget = 50.0;
+
 /// Rounding of a proof of several steps, relative.
 constexpr double kProofRounding = 1e-7;
 
@@ -223,7 +227,8 @@ class Prover {
   /// `nodes` down.
   double prove(double target, std::int64_t& nodes) const {
     if (laws_.empty()) return 0.0;
-    const double wanted = (target - roll_) * (1.0 + kProofRounding);
+    const double wanted =
+        (std::min(target, kGreatestTarget) - roll_) * (1.0 + kProofRounding);
     return roll_ + word_bound(scene_, question_, wanted, nodes) * (1.0 - kProofRounding);
   }
 

@@ -52,7 +52,8 @@ bool passes_behind(const Edge& edge, double from, double other) {
 /// The least of w'.e / sigma for an edge w' of the widened cone over all motions that the
 /// two edges allow. The force is inside its edge by at least lean(G), and no farther from
 /// it than the other edge allows; the motion is within the deviation of the force.
-double least_advance(const Cells& cells, const Edge& edge) {
+/// `fastest`: the sigma up to which the cells reach where motions beyond are possible.
+double least_advance(const Cells& cells, const Edge& edge, double fastest) {
   double least = edge.w_wide;
   for (const SectionCell& cell : cells) {
     const double from = lean(edge.G, edge.w, cell);
@@ -70,10 +71,7 @@ double least_advance(const Cells& cells, const Edge& edge) {
         least, edge.w_wide * sine / (sine < 0.0 ? cell.sigma_low : cell.sigma_high));
   }
   // Turning on the spot, beyond the cells, gravity may drag the object out of the cone.
-  const bool spins = edge.G <= 0.0 && edge.G_other <= 0.0;
-  const double beyond =
-      spins && edge.G < 0.0 ? edge.w_wide / cells.back().sigma_high : 0.0;
-  return beyond > 0.0 ? std::min(least, -beyond) : least;
+  return edge.G < 0.0 ? std::min(least, -edge.w_wide / fastest) : least;
 }
 
 /// How far along the motion, at most, the direction of a motion leans from the normal:
@@ -203,7 +201,10 @@ RunLaw run_law(const Model& model, const PushContact& contact, const PadSection&
   std::copy_if(
       section.cells.begin(), section.cells.end(), std::back_inserter(cells),
       [&edges](const SectionCell& cell) { return !asks_too_much(edges[0], cell); });
-  for (int k = 0; k < 2; ++k) law.back[k] = -least_advance(cells, edges[k]);
+  const SectionCell& last = section.cells.back();
+  const double fastest = asks_too_much(edges[0], last) ? kInfinity : last.sigma_high;
+  for (int k = 0; k < 2; ++k) law.back[k] = -least_advance(cells, edges[k], fastest);
+  if (cells.empty()) cells = section.cells;  // its edges let this contact do nothing
   set_ends(section, cells, model, contact, greatest_detour(cells, edges), gamma, law);
   return law;
 }

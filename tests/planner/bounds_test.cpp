@@ -243,6 +243,17 @@ TEST(Bounds, AreTrivialWhereTheLawsDoNotHold) {
   EXPECT_TRUE(lower_bound(prepare(scene), scene.start, *scene.goal, 9.0).is_trivial);
 }
 
+/// A plan file may claim anything: a claim that would have questions without number is
+/// no proof.
+TEST(Bounds, AbsurdClaimsAreRefused) {
+  const Scene scene = published_tee(3);
+  const Model model = prepare(scene);
+  for (const double claim : {1e3, 1e9, 1e300}) {
+    EXPECT_FALSE(bound_holds(model, scene.start, *scene.goal, claim)) << claim;
+    EXPECT_LT(lower_bound(model, scene.start, *scene.goal, claim).value, 1e3) << claim;
+  }
+}
+
 TEST(Bounds, TellAGoalBesideTheConeOfAllContacts) {
   Scene scene = published_square(0);
   scene.g_W.setZero();

@@ -11,6 +11,7 @@
 #include "planner/push_search.h"
 #include "planner/replay.h"
 #include "primitives/uncertainty.h"
+#include "problems/random_fixtures.h"
 #include "tests/planner/planner_cases.h"
 #include "tests/support/no_heap.h"
 #include "tests/support/random.h"
@@ -251,6 +252,31 @@ TEST(Planner, PlansSurviveTheirMarginBox) {
       }
     }
   }
+}
+
+/// Points that push a box: some plans turn hundreds of times, and what is returned holds
+/// with half the step, too.
+TEST(Planner, PlansOfManyTurnsReplay) {
+  FixtureRange range;
+  range.pushers = FixturePushers::kPoints;
+  int many = 0;
+  for (const int index : {34, 91, 122}) {
+    const auto problem = random_fixture(range, 1, index);
+    ASSERT_TRUE(problem) << index;
+    const Model model = prepare(problem->scene);
+    const Plan plan = plan_regrasp(model);
+    many += plan.usable() ? 0 : 1;
+    if (!plan.usable()) {
+      EXPECT_EQ(plan.status, PlanStatus::kBudgetSpent);
+      EXPECT_GT(plan.lower_bound, 1.0);
+      continue;
+    }
+    for (const PlannedPush& push : plan.pushes) {
+      many += std::abs(push.end.X_HO.theta - push.start.X_HO.theta) > 100.0 ? 1 : 0;
+    }
+    EXPECT_TRUE(replay(model, plan).agrees) << index;
+  }
+  EXPECT_GE(many, 3);
 }
 
 TEST(Planner, RollsACanWhereTheGoalAsksForIt) {

@@ -193,6 +193,28 @@ TEST(RunLaws, HoldAtEveryInstantThatSticks) { check_instants(100, 4000, 2); }
 
 TEST(RunLaws, FullHoldAtEveryInstantThatSticks) { check_instants(2000, 20'000, 3); }
 
+/// Gravity along a wall that is greater than all friction: no motion by it sticks.
+TEST(RunLaws, OfAContactThatGravityOverpowersAllowNothing) {
+  Scene scene = published_square(0);
+  scene.gripper.grip_force = 0.5;
+  scene.g_W = {0.0, -9.81};
+  const Model model = prepare(scene);
+  const RunLaws laws = run_laws(model);
+  int overpowered = 0;
+  for (const RunLaw& law : laws.contacts) {
+    for (const auto& set : law.end) {
+      for (const EndLaw& end : set) {
+        EXPECT_TRUE(end.place.allFinite());
+        EXPECT_TRUE(std::isfinite(end.per_travel + end.slope + end.per_path));
+      }
+    }
+    const bool nothing =
+        law.back[0] == -law.w[0].norm() && law.back[1] == -law.w[1].norm();
+    overpowered += nothing ? 1 : 0;
+  }
+  EXPECT_GT(overpowered, 0);
+}
+
 TEST(RunLaws, AreNotMadeForPadsThatChange) {
   Scene scene = published_square(0);
   scene.overhang = Overhang::kClip;

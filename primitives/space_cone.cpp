@@ -82,7 +82,9 @@ std::optional<DirectionRange> narrowed(const DirectionRange& range, const Holds&
                         at_hi ? range.hi : edge(range.hi)};
 }
 
-/// What of these ranges holds with every member; `holds(member, at)`.
+/// What of these ranges holds with every member; `holds(member, at)`. A member that
+/// leaves gaps may not hold at the edge that a later one gave, so members are asked again
+/// until none moves an edge.
 template <class Holds>
 std::vector<DirectionRange> robust_part(const std::vector<DirectionRange>& ranges,
                                         const std::vector<SpaceMember>& members,
@@ -90,8 +92,13 @@ std::vector<DirectionRange> robust_part(const std::vector<DirectionRange>& range
   std::vector<DirectionRange> left;
   for (const DirectionRange& range : ranges) {
     std::optional<DirectionRange> now = range;
-    for (const SpaceMember& member : members) {
-      if (now) now = narrowed(*now, [&](double at) { return holds(member, at); });
+    // The member that moved an edge last need not be asked again.
+    std::size_t agree = 0;
+    for (std::size_t i = 0; now && agree < members.size(); i = (i + 1) % members.size()) {
+      const DirectionRange before = *now;
+      now = narrowed(before, [&](double at) { return holds(members[i], at); });
+      const bool moved = now && (now->lo != before.lo || now->hi != before.hi);
+      agree = moved ? 1 : agree + 1;
     }
     if (now) left.push_back(*now);
   }

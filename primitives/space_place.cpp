@@ -23,6 +23,26 @@ constexpr int kPlaces = 21;
 /// Relative, of the least grip force.
 constexpr double kForcePrecision = 1e-4;
 
+/// What a place without the wanted motion is told to be.
+InstantStatus status_of(const PushStop& stop) {
+  switch (stop.status) {
+    case TransitionStatus::kPusherLost:
+      return InstantStatus::kSeparated;
+    case TransitionStatus::kLeavesPlane:
+      return InstantStatus::kMoves;
+    case TransitionStatus::kFalls:
+      return InstantStatus::kDynamic;
+    case TransitionStatus::kJammed:
+      return InstantStatus::kJammed;
+    case TransitionStatus::kAmbiguous:
+      return InstantStatus::kAmbiguous;
+    case TransitionStatus::kIterationLimit:
+      return InstantStatus::kOutOfIterations;
+    default:
+      return InstantStatus::kNotRun;
+  }
+}
+
 double slack_of(const Model& model, const LinearPush& push, const PlanarPose& X_HO,
                 bool is_path) {
   SpatialPushInstant instant(model, push, {X_HO, 0.0}, {});
@@ -76,9 +96,7 @@ void make_in_space(const Model& model, const WantedMotion& wanted, const Margin&
       robust_slack_in_space(model, wanted, contact, placed.push.place, margin);
   placed.found = false;
   if (stop) {
-    placed.status = stop.status == TransitionStatus::kAmbiguous
-                        ? InstantStatus::kAmbiguous
-                        : InstantStatus::kDynamic;
+    placed.status = status_of(stop);
     return;
   }
   const Sample sample = instant.sample(0.0, 0.0);

@@ -174,7 +174,7 @@ void compare_places_with_the_pad_plane(int scenes) {
       EXPECT_LT(best_place_in_space(model, wanted, 0, own, own).slack, 1e-6) << index;
     }
   }
-  EXPECT_GT(5 * compared, scenes);
+  EXPECT_GT(24 * compared, 5 * scenes);
 }
 
 TEST(SpacePlace, PlacesOfThePadPlaneStickWhereTheSceneIsSymmetric) {

@@ -37,6 +37,7 @@ struct Options {
   int seeds = 3;
   int time_ms = 1000;
   std::string plans = "robust";  // or nominal: without a margin
+  std::string theta = "angle";   // or number: the nearest winding is the only goal
   const char* file = nullptr;
 };
 
@@ -98,7 +99,14 @@ bool is_set(const std::string& set) {
   return set == "published" || set == "ranges" || set == "wide" || set == "constructed";
 }
 
-std::vector<Problem> problems_of(const Options& options) {
+/// The angle of the goal as a number, no farther from the start than half a turn.
+void keep_nearest_winding(Scene& scene) {
+  Goal& goal = *scene.goal;
+  goal.theta = scene.start.X_HO.theta + wrapped(*goal.theta - scene.start.X_HO.theta);
+  goal.theta_is = ThetaMeaning::kNumber;
+}
+
+std::vector<Problem> problems_of_set(const Options& options) {
   const auto count = [&](int all) {
     return options.problems > 0 ? options.problems : all;
   };
@@ -109,6 +117,14 @@ std::vector<Problem> problems_of(const Options& options) {
   const bool wide = options.set == "wide";
   return random_problems(wide ? RegraspRange::kWide : RegraspRange::kPublished,
                          count(kRandom));
+}
+
+std::vector<Problem> problems_of(const Options& options) {
+  std::vector<Problem> problems = problems_of_set(options);
+  if (options.theta == "number") {
+    for (Problem& problem : problems) keep_nearest_winding(problem.scene);
+  }
+  return problems;
 }
 
 bool is_own(const std::string& planner) { return planner == PlanOptions{}.planner; }
@@ -222,6 +238,7 @@ bool read_options(int count, char** arguments, Options& options) {
                        {"--set", &options.set},
                        {"--planner", &options.planner},
                        {"--plans", &options.plans},
+                       {"--theta", &options.theta},
                        {"--problems", &options.problems},
                        {"--seeds", &options.seeds},
                        {"--time-ms", &options.time_ms}},
@@ -230,7 +247,8 @@ bool read_options(int count, char** arguments, Options& options) {
                         options.seeds = 1;
                         options.time_ms = 50;
                       }) &&
-         is_set(options.set) && (options.plans == "robust" || options.plans == "nominal");
+         is_set(options.set) && (options.plans == "robust" || options.plans == "nominal") &&
+         (options.theta == "angle" || options.theta == "number");
 }
 
 std::vector<std::string> wanted_planners(const Options& options) {
@@ -250,8 +268,9 @@ int run(int count, char** arguments) {
   if (!readable || planners.empty()) {
     std::fputs(
         "usage: bench_planner [--quick] [--set published|ranges|wide|constructed]\n"
-        "                     [--planner NAME] [--plans robust|nominal] [--problems N]\n"
-        "                     [--seeds N] [--time-ms N] [-o FILE]\n",
+        "                     [--planner NAME] [--plans robust|nominal]\n"
+        "                     [--theta angle|number] [--problems N] [--seeds N]\n"
+        "                     [--time-ms N] [-o FILE]\n",
         stderr);
     return 2;
   }

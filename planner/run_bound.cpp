@@ -280,6 +280,22 @@ class Barrier {
     const double off_u = x_[u] + x_[kRestU] - p_.goal_u - p_.arc_u * share;
     const double off_depth = x_[kRest] - p_.goal_depth - p_.arc_depth * share;
     const double end_z = x_[z] + x_[kRestZ];
+    for (int i = 0; i < 2; ++i) {
+      const double room = p_.goal.slack[i] + p_.goal.slope[i] * share + x_[kV];
+      for (int corner = 0; corner < 4; ++corner) {
+        const Vec2 w = corner_of_goal(corner);
+        Gradient slope;
+        slope.add(u, -w.x());
+        slope.add(kRestU, -w.x());
+        slope.add(kRest, -w.y());
+        slope.add(kShare, p_.goal.slope[i] + w.dot(Vec2(p_.arc_u, p_.arc_depth)));
+        slope.add(kV, 1.0);
+        if (!take(room - w.dot(Vec2(off_u, off_depth)), slope,
+                  &y_.goal_corner[i][corner])) {
+          return false;
+        }
+      }
+    }
     for (int e = 0; e < 2; ++e) {
       const double side = e == 0 ? -1.0 : 1.0;
       for (int i = 0; i < 2; ++i) {

@@ -126,6 +126,14 @@ EndTerms terms_of_goal(const RunProgram& p, const RunMultipliers& y) {
       share -= of_u * (p.goal.slope[i] + side * p.arc_u) +
                of_depth * (p.goal.slope[i] + side * p.arc_depth);
     }
+    for (int corner = 0; corner < 4; ++corner) {
+      const double of_corner = y.goal_corner[i][corner];
+      const Vec2 w = corner_of_goal(corner);
+      terms.u += w.x() * of_corner;
+      terms.depth += w.y() * of_corner;
+      terms.least -= of_corner * (p.goal.slack[i] + w.dot(Vec2(p.goal_u, p.goal_depth)));
+      share -= of_corner * (p.goal.slope[i] + w.dot(Vec2(p.arc_u, p.arc_depth)));
+    }
   }
   terms.least -= std::abs(share);
   return terms;
@@ -189,6 +197,9 @@ RunMultipliers scaled(const RunMultipliers& y, double factor) {
   }
   for (Pair& pair : result.goal_u) scale(pair);
   for (Pair& pair : result.goal_depth) scale(pair);
+  for (auto& corners : result.goal_corner) {
+    for (double& value : corners) value *= factor;
+  }
   scale(result.goal_z);
   return result;
 }

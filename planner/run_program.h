@@ -20,11 +20,18 @@ struct PieceMultipliers {
 /// All multipliers; the last piece is the rest of the way, into the goal's box.
 struct RunMultipliers {
   std::array<PieceMultipliers, kRunPieces + 1> piece;
-  /// Of the goal's slacks, on both sides of its arc; of the depth of the last piece; and
-  /// of z.
+  /// Of the goal's slacks, on both sides of its arc and at its corners; and of z.
   std::array<Pair, 2> goal_u{}, goal_depth{};
+  std::array<std::array<double, 4>, 2> goal_corner{};
   Pair goal_z{};
 };
+
+/// Directions (u, depth) half-way between the axes: a member of the goal is no farther
+/// from the line in any direction than the slack.
+inline Vec2 corner_of_goal(int corner) {
+  const double half = std::sqrt(0.5);
+  return {corner % 2 == 0 ? -half : half, corner < 2 ? -half : half};
+}
 
 /// Numbers of the program: u and z = c theta counted from 0 at the start.
 struct RunProgram {

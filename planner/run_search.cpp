@@ -13,9 +13,17 @@ namespace prehensile {
 namespace {
 
 constexpr std::array<int, 7> kStrides = {12, 8, 6, 4, 3, 2, 1};  // of the way-points
-/// The laws are a little wider than what sticks; so far inwards are their ends moved,
-/// over c, until a chain follows.
-constexpr std::array<double, 3> kInwards = {0.0, 0.7, 1.5};
+/// The laws are a little wider than what sticks, and the pads' points pull aside where
+/// round pads would not: so far inwards are the ends of the face moved, over c, and the
+/// edges of the cone, as a share of the friction, until a chain follows.
+struct Inwards {
+  double ends = 0.0, cone = 0.0;
+};
+constexpr std::array<Inwards, 4> kInwards = {
+    {{0.7, 0.0}, {0.35, 0.05}, {1.5, 0.0}, {0.7, 0.12}}};
+/// The same where the points themselves say how legs may turn.
+constexpr std::array<Inwards, 4> kInwardsOfPoints = {
+    {{0.0, 0.0}, {0.35, 0.05}, {0.7, 0.0}, {0.7, 0.12}}};
 constexpr double kPerPush = 2e-3;  // of J, that one push less is worth
 constexpr double kDearest = 5.0;   // J of plans looked for
 constexpr double kUsedTolerance = 0.9;
@@ -122,15 +130,16 @@ class RunSearch {
     const bool near = std::hypot(std::max(0.0, d.norm() - off), c * least_turn) < cap;
     if (!near || law.mu <= 0.0 || is_behind(0) || is_behind(1)) return;
     const double before = to_beat_;
-    for (const double inwards : kInwards) {
+    const auto follow_all = [&](const Steering& steering, const Inwards& inwards) {
       RunLaws laws;
       laws.C = laws_.C;
       laws.reach = laws_.reach;
       laws.contacts = {law};
       for (auto& set : laws.contacts[0].end) {
-        set[0].place -= inwards * c * law.t;
-        set[1].place += inwards * c * law.t;
+        set[0].place -= inwards.ends * c * law.t;
+        set[1].place += inwards.ends * c * law.t;
       }
+      laws.contacts[0].mu *= 1.0 - inwards.cone;
       work_.other += kProgram;
       RunPath path;
       if (!run_path({.laws = &laws,
@@ -144,16 +153,28 @@ class RunSearch {
                      .cap = cap,
                      .chords_only = true},
                     path)) {
-        return;
+        return false;
       }
       if (ends.half == 0.0) path.end = ends.arc.centre;
       const double turn = ends.turn + path.share * ends.half;
-      for (const int stride : kStrides) follow(contact, path, stride, turn);
+      for (const int stride : kStrides) follow(steering, contact, path, stride, turn);
+      return true;
+    };
+    if (!follow_all({search_}, {})) return;  // nor inwards
+    for (const Inwards& inwards : kInwards) {
       if (to_beat_ < before) return;
+      follow_all({search_}, inwards);
+    }
+    if (can_roll(search_.model->scene.object)) return;
+    if (!envelope_) envelope_.emplace(*search_.model, search_.margin);
+    for (const Inwards& inwards : kInwardsOfPoints) {
+      if (to_beat_ < before) return;
+      follow_all({search_, true, &*envelope_}, inwards);
     }
   }
 
-  void follow(int contact, const RunPath& path, int stride, double turn) {
+  void follow(const Steering& steering, int contact, const RunPath& path, int stride,
+              double turn) {
     Chain& chain = scratch_;
     chain.count = kRunPieces / stride;
     Stop from{start_.p_OF, true};
@@ -161,7 +182,7 @@ class RunSearch {
       const bool last = k + 1 == chain.count;
       const Stop to =
           last ? Stop{path.end, true} : Stop{path.places[(k + 1) * stride - 1]};
-      if (!make_leg({search_}, contact, from, to, work_, chain.legs[k])) return;
+      if (!make_leg(steering, contact, from, to, work_, chain.legs[k])) return;
       from = to;
     }
     const double charge = kPerPush * chain.count;
@@ -178,6 +199,7 @@ class RunSearch {
   Work& work_;
   RunLaws laws_;
   Chain scratch_;
+  std::optional<PadEnvelope> envelope_;  ///< of the pads' points at every angle
   std::optional<Chain> found_;
 };
 

@@ -7,8 +7,9 @@
 namespace prehensile {
 
 /// Solves the convex program of run_bound.h for each contact, goal place and angle that
-/// may beat `to_beat`, and follows the way-points with as few pushes as lose little. Ends
-/// off the goal, within its tolerances, have to be worth it (kWorthTolerance).
+/// may beat `to_beat`, and follows the way-points with as few pushes as lose little:
+/// turning as rings do, or else as the pads' points do at every angle. Ends off the goal,
+/// within its tolerances, have to be worth it (kWorthTolerance).
 std::optional<Chain> search_runs(const SearchModel& search, const FlatState& start,
                                  const Goal& goal, double to_beat, const Limits& limits,
                                  Work& work);

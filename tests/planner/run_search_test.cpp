@@ -43,5 +43,26 @@ TEST(RunSearch, UsesTolerancesWhereTheySaveAPlacement) {
   EXPECT_GE(saved, 1);
 }
 
+/// Round pads would turn along these ways as the closed form of their rings says; the
+/// points that stand for them pull aside, and only what they themselves allow is
+/// followed.
+TEST(RunSearch, FollowsWherePointsPullAside) {
+  Scene scene = random_among_walls(true, RegraspRange::kWide, false, 1, 3);
+  Goal& goal = *scene.goal;
+  goal.theta = scene.start.X_HO.theta + wrapped(*goal.theta - scene.start.X_HO.theta);
+  goal.theta_is = ThetaMeaning::kNumber;
+  const Model model = prepare(scene);
+  const SearchModel search = prepare_search(model, Margin::none());
+  Work work{.budget = 1'000'000};
+  const PlanOptions options;
+  const auto found = search_runs(search, flat_state(scene.start), goal, 2.5,
+                                 Limits(options, work), work);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(placements(*found), 1);
+  EXPECT_LT(found->cost, 1.9);
+  const double theta = scene.start.X_HO.theta;
+  EXPECT_TRUE(chain_passes(search, *found, theta, work));
+}
+
 }  // namespace
 }  // namespace prehensile

@@ -73,6 +73,7 @@ nlohmann::ordered_json to_json(const Replay& replay) {
                                 {"reaches_goal", replay.reaches_goal},
                                 {"costs_right", replay.costs_right},
                                 {"bound_right", replay.bound_right},
+                                {"confinement", replay.confinement},
                                 {"instants", replay.instants},
                                 {"pushes", nlohmann::ordered_json::array()}};
   for (const ReplayedPush& push : replay.pushes) {

@@ -68,6 +68,7 @@ void expect_same(const Plan& a, const Plan& b) {
   expect_same(a.travel, b.travel);
   expect_same(a.lower_bound, b.lower_bound);
   expect_same(a.published_cost, b.published_cost);
+  EXPECT_EQ(a.bound_is_trivial, b.bound_is_trivial);
   expect_same(a.seconds, b.seconds);
   ASSERT_EQ(a.pushes.size(), b.pushes.size());
   for (std::size_t i = 0; i < a.pushes.size(); ++i) {
@@ -90,6 +91,7 @@ TEST(PlanFile, RandomPlansReturnUnchanged) {
     if (random.chance(0.5)) plan.margin.grasp = random.in(0.0, 1e-2);
     if (random.chance(0.5)) plan.margin.tilt = random.in(0.0, 0.1);
     plan.promise = static_cast<Promise>(random.below(4));
+    plan.bound_is_trivial = random.chance(0.5);
     if (random.chance(0.3)) {
       plan.explanation = {"one \"paragraph\"",
                           {{"more grip", "--set gripper.grip_force=9", "", 1.5},

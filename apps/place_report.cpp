@@ -4,6 +4,7 @@
 
 #include "apps/csv.h"
 #include "apps/json_number.h"
+#include "apps/parallel.h"
 #include "apps/plan_report.h"
 #include "apps/table.h"
 #include "plot/chart.h"
@@ -91,44 +92,6 @@ nlohmann::ordered_json placed_json(const PlaceReport& report, const PlacedPush& 
   return out;
 }
 
-/// Slack against place of one contact at the best grip force.
-struct Curve {
-  std::string label;
-  std::vector<double> place, nominal, robust;
-};
-
-std::vector<Curve> curves_of(const PlaceReport& report) {
-  std::vector<Curve> curves;
-  const WantedMotion& wanted = report.wanted;
-  const double speed = wanted.velocity.norm();
-  const Vec2 e = speed > 0.0 ? Vec2(wanted.velocity / speed) : Vec2(1.0, 0.0);
-  Scene scene = report.model.scene;
-  if (std::isfinite(report.answer.best.grip_force)) {
-    scene.gripper.grip_force = report.answer.best.grip_force;
-  }
-  const Model model = prepare(scene, report.model.options);
-  for (const ContactVerdict& verdict : report.answer.verdicts) {
-    if (!verdict.possible) continue;
-    const PushContact& contact = model.contacts[verdict.contact];
-    const double half = 0.5 * (contact.b - contact.a).norm();
-    Curve curve{.label = contact_text(model, verdict.contact)};
-    for (int k = 0; k <= 200; ++k) {
-      const double place = half * (k / 100.0 - 1.0);
-      const auto slack = [&](const Margin& margin) {
-        const double value = exact_stick_test(model, contact, place, wanted.X_HO, e,
-                                              speed, wanted.turn, margin)
-                                 .slack;
-        return std::isfinite(value) ? value : kNan;
-      };
-      curve.place.push_back(place);
-      curve.nominal.push_back(slack(Margin::none()));
-      curve.robust.push_back(slack(report.options.margin));
-    }
-    curves.push_back(std::move(curve));
-  }
-  return curves;
-}
-
 plot::Point mm(const Vec2& p) { return {to_mm(p.x()), to_mm(p.y())}; }
 
 /// Object, finger axis, wanted motion, pusher and its force, seen from the hand.
@@ -184,7 +147,8 @@ plot::Chart chart_of_push(const PlaceReport& report, const PlacedPush& placed,
   return chart;
 }
 
-plot::Chart chart_of_margin(const PlaceReport& report) {
+plot::Chart chart_of_margin(const PlaceReport& report,
+                            const std::vector<PlaceCurve>& curves) {
   plot::Chart chart{.title = "Margin against place",
                     .subtitle = "dashed: over the box of uncertainty; sticks above 0"};
   chart.x.label = "place along the face [mm]";
@@ -193,7 +157,7 @@ plot::Chart chart_of_margin(const PlaceReport& report) {
   static constexpr std::array<plot::Colour, 4> kColours = {
       plot::Colour::kBlue, plot::Colour::kRed, plot::Colour::kGreen,
       plot::Colour::kPurple};
-  for (const Curve& curve : curves_of(report)) {
+  for (const PlaceCurve& curve : curves) {
     const plot::Colour colour = kColours[static_cast<std::size_t>(index++) % 4];
     plot::Line nominal{.label = curve.label, .colour = colour};
     plot::Line robust{.colour = colour, .dash = plot::Dash::kDashed};
@@ -280,9 +244,39 @@ nlohmann::ordered_json to_json(const PlaceReport& report) {
   return out;
 }
 
-std::string to_csv(const PlaceReport& report) {
+std::vector<PlaceCurve> curves_of(const PlaceReport& report) {
+  constexpr int kPlaces = 201;
+  std::vector<PlaceCurve> curves;
+  Scene scene = report.model.scene;
+  if (std::isfinite(report.answer.best.grip_force)) {
+    scene.gripper.grip_force = report.answer.best.grip_force;
+  }
+  const Model model = prepare(scene, report.model.options);
+  for (const ContactVerdict& verdict : report.answer.verdicts) {
+    const PushContact& contact = model.contacts[verdict.contact];
+    const bool in_space = model.push_needs_space(contact);
+    if (!verdict.possible || (in_space && contact.is_point)) continue;
+    const double half = 0.5 * (contact.b - contact.a).norm();
+    PlaceCurve curve{.label = contact_text(model, verdict.contact)};
+    curve.place.resize(kPlaces);
+    curve.nominal.resize(kPlaces);
+    curve.robust.resize(kPlaces);
+    for_each_index(kPlaces, number_of_jobs(0), [&](int k) {
+      const double place = half * (2.0 * k / (kPlaces - 1.0) - 1.0);
+      const PlaceSlack slack =
+          slack_at(model, report.wanted, verdict.contact, place, report.options.margin);
+      curve.place[k] = place;
+      curve.nominal[k] = slack.nominal;
+      curve.robust[k] = slack.robust;
+    });
+    curves.push_back(std::move(curve));
+  }
+  return curves;
+}
+
+std::string to_csv(const std::vector<PlaceCurve>& curves) {
   std::string out = "contact,place_m,slack,robust_slack\n";
-  for (const Curve& curve : curves_of(report)) {
+  for (const PlaceCurve& curve : curves) {
     for (std::size_t k = 0; k < curve.place.size(); ++k) {
       out += csv_line({csv_text(curve.label), csv_number(curve.place[k]),
                        csv_number(curve.nominal[k]), csv_number(curve.robust[k])});
@@ -291,17 +285,17 @@ std::string to_csv(const PlaceReport& report) {
   return out;
 }
 
-std::string to_svg(const PlaceReport& report) {
+std::string to_svg(const PlaceReport& report, const std::vector<PlaceCurve>& curves) {
+  std::vector<plot::Chart> charts = {
+      chart_of_push(report, report.answer.best, report.wanted)};
   if (!report.answer.best.found && report.nearest.found) {
-    plot::Chart chart =
-        chart_of_push(report, report.nearest.answer.best, report.nearest.motion);
-    chart.title = "Nearest possible motion";
-    return plot::svg_of_sheet(
-        {chart_of_push(report, report.answer.best, report.wanted), chart}, 2);
+    charts.push_back(
+        chart_of_push(report, report.nearest.answer.best, report.nearest.motion));
+    charts.back().title = "Nearest possible motion";
+  } else if (!curves.empty()) {
+    charts.push_back(chart_of_margin(report, curves));
   }
-  return plot::svg_of_sheet(
-      {chart_of_push(report, report.answer.best, report.wanted), chart_of_margin(report)},
-      2);
+  return plot::svg_of_sheet(charts, 2);
 }
 
 }  // namespace prehensile::apps

@@ -22,8 +22,17 @@ struct PlaceReport {
 std::string describe(const PlaceReport& report);
 nlohmann::ordered_json to_json(const PlaceReport& report);
 
-/// Margin against place, for every contact that can make the motion.
-std::string to_csv(const PlaceReport& report);
-std::string to_svg(const PlaceReport& report);
+/// Slack against place of one contact at the best grip force.
+struct PlaceCurve {
+  std::string label;
+  std::vector<double> place, nominal, robust;
+};
+
+/// Of every contact that can make the motion, but for points in space, which make it at
+/// one place only.
+std::vector<PlaceCurve> curves_of(const PlaceReport& report);
+
+std::string to_csv(const std::vector<PlaceCurve>& curves);
+std::string to_svg(const PlaceReport& report, const std::vector<PlaceCurve>& curves);
 
 }  // namespace prehensile::apps

@@ -15,6 +15,7 @@
 #include "apps/uncertainty_options.h"
 #include "io/plan_file.h"
 #include "primitives/space_cone.h"
+#include "scene/split_mix.h"
 
 namespace prehensile::apps {
 namespace {
@@ -50,7 +51,7 @@ std::vector<BoxPoint> points_of(const Options& options, const UncertaintyBox& bo
   const bool all = unknowns <= 9;
   for (std::uint64_t i = 0; i < (all ? 1U << unknowns : kMostCorners); ++i) {
     // Odd multiples of the golden section spread over the corners of a large box.
-    points.push_back(corner(box, all ? i : (i * 0x9e3779b97f4a7c15u) >> 32));
+    points.push_back(corner(box, all ? i : (i * kSplitMixStride) >> 32));
   }
   for (int i = 0; i < options.samples; ++i) {
     points.push_back(random_point(options.seed, static_cast<std::uint64_t>(i)));

@@ -76,7 +76,7 @@ int run(const Options& options) {
   const Model model = prepare(file.scene, {.points_per_pad = options.points});
   note_pad_plane(model,
                  "pushes are sought and made in space; what no contact can do is not "
-                 "proved, and the curves of --csv and --plot are those of the pad plane");
+                 "proved");
   const Grasp grasp = chosen_grasp(model, {.at = options.at});
   PlaceReport report{.model = model};
   report.scene = options.scene.file;
@@ -108,8 +108,11 @@ int run(const Options& options) {
     instant.is_path = false;
     report.nearest = nearest_motion(model, instant, report.options);
   }
-  if (!options.csv.empty()) write_atomically(options.csv, to_csv(report));
-  if (!options.plot.empty()) write_atomically(options.plot, to_svg(report));
+  if (!options.csv.empty() || !options.plot.empty()) {
+    const std::vector<PlaceCurve> curves = curves_of(report);
+    if (!options.csv.empty()) write_atomically(options.csv, to_csv(curves));
+    if (!options.plot.empty()) write_atomically(options.plot, to_svg(report, curves));
+  }
   const std::string out =
       options.scene.json ? to_json(report).dump(2) + '\n' : describe(report);
   std::fputs(out.c_str(), stdout);

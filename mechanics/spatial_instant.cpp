@@ -139,6 +139,7 @@ class Instant {
     SpatialForces known;
     NewtonStart warm;
     const bool follows = last != nullptr && follow(*last, known, warm);
+    follows_rest_ = last != nullptr && !scaled_.has_inertia && follow_rest(*last);
     bool found = search.solve_directly(follows ? &warm : nullptr);
     if (scaled_.has_inertia) {
       found = found || search.solve_otherwise() || search.solve_stubbornly();
@@ -158,7 +159,8 @@ class Instant {
   using Hold = SpatialSearch::Hold;
 
   void solve_quasi_static(SpatialSearch& search, bool found) {
-    Hold hold = found && search.rests_in_pads() ? Hold::kHeld : search.judge_hold();
+    Hold hold =
+        found && search.rests_in_pads() ? Hold::kHeld : search.judge_hold(last_rest());
     found = found || search.solve_otherwise();
     if (!found && hold == Hold::kFalls && report_fall(search)) return;
     found = found || search.solve_stubbornly();
@@ -173,8 +175,12 @@ class Instant {
     InstantStatus status = InstantStatus::kMoves;
     SpatialForces fall;
     SpatialRates rates;
-    const bool falls = hold != Hold::kHeld && search.find_fall(true, fall, rates);
-    if (!falls && hold != Hold::kHeld) hold = search.judge_hold(true);
+    bool falls = hold != Hold::kHeld && search.find_fall(true, fall, rates);
+    if (falls && search.approach_rest()) {
+      falls = false;
+      hold = Hold::kHeld;
+    }
+    if (!falls && hold != Hold::kHeld) hold = search.judge_hold_patiently();
     if (falls) {
       status = InstantStatus::kAmbiguous;
       answer_.evidence = rates_in_hand(scaled_, rates);
@@ -265,28 +271,54 @@ class Instant {
     if (last.count != problem_.count || !last.V_HO.allFinite()) return false;
     SpatialRates rates;
     rates << last.V_HO, last.jaw_rate[0], last.jaw_rate[1];
+    scale_forces(known, [&](int i) {
+      const SpatialPoint& point = last.point[i];
+      return SpatialForce{point.normal_force, point.tangential_force, point.spin_moment};
+    });
+    warm = start_at(rates, known);
+    return true;
+  }
+
+  /// How the object rested in the pads alone in the last instant as a start.
+  bool follow_rest(const SpatialInstant& last) {
+    const bool rested = usable(last.status) && last.evidence.allFinite();
+    if (last.count != problem_.count || !rested) return false;
+    scale_forces(rest_forces_, [&](int i) { return last.other_force[i]; });
+    rest_ = start_at(last.evidence, rest_forces_);
+    return true;
+  }
+  const NewtonStart* last_rest() const { return follows_rest_ ? &rest_ : nullptr; }
+
+  NewtonStart start_at(SpatialRates rates, const SpatialForces& known) const {
     for (int i = scaled_.freedoms; i < 8; ++i) rates[i] = 0.0;
+    return {.v = scaled_rates(scaled_, rates), .forces = &known, .r = 0.03};
+  }
+
+  /// `force(i)` of all points in the lanes of the scaled problem.
+  template <class Force>
+  void scale_forces(SpatialForces& known, Force&& force) const {
     const double per_force = 1.0 / scaled_.units.force;
     for (int j = 0; j < scaled_.padded; ++j) {
       known.n[j] = known.t[j] = known.o[j] = known.s[j] = 0.0;
     }
     for_each_point(scaled_, [&](const ScaledPatch& patch, int i, int lane) {
-      const SpatialPoint& point = last.point[i];
-      known.n[lane] = per_force * point.normal_force;
-      known.t[lane] = per_force * point.tangential_force.x();
-      known.o[lane] = per_force * point.tangential_force.y();
+      const SpatialForce f = force(i);
+      known.n[lane] = per_force * f.normal;
+      known.t[lane] = per_force * f.tangential.x();
+      known.o[lane] = per_force * f.tangential.y();
       if (patch.soft) {
-        known.s[lane] = per_force * point.spin_moment / (patch.e * scaled_.units.length);
+        known.s[lane] = per_force * f.spin / (patch.e * scaled_.units.length);
       }
     });
-    warm = {.v = scaled_rates(scaled_, rates), .forces = &known, .r = 0.03};
-    return true;
   }
 
   const SpatialProblem& problem_;
   const SpatialSolveOptions& options_;
   SpatialInstant& answer_;
   ScaledSpatial scaled_;
+  SpatialForces rest_forces_;
+  NewtonStart rest_;
+  bool follows_rest_ = false;
 };
 
 }  // namespace

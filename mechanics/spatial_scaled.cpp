@@ -268,4 +268,12 @@ SpatialRates scaled_rates(const ScaledSpatial& scaled, const SpatialRates& v) no
   return out;
 }
 
+double ScaledSpatial::least_compliance() const noexcept {
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < patch_count; ++k) {
+    if (patch[k].R > 0.0) least = std::min(least, patch[k].R);
+  }
+  return least;
+}
+
 }  // namespace prehensile

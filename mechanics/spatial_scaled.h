@@ -80,6 +80,9 @@ struct ScaledSpatial {
   int patch_count = 0;
   int padded = 0;
   bool has_inertia = false;
+
+  /// Of the stiffest foundation; infinite if there is none.
+  double least_compliance() const noexcept;
 };
 
 /// False if the data make no sense; see solve_spatial.

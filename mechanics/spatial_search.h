@@ -21,9 +21,15 @@ class SpatialSearch {
   /// Everything else.
   bool solve_stubbornly();
 
-  /// What the object does in the grasp of the pads alone, quasi-statically.
+  /// What the object does in the grasp of the pads alone, quasi-statically. `last` may be
+  /// null: how it rested in a similar problem. Close to its limit a rest is seldom found
+  /// from elsewhere.
   enum class Hold { kHeld, kFalls, kUnknown };
-  Hold judge_hold(bool patiently = false);
+  Hold judge_hold(const NewtonStart* last);
+  Hold judge_hold_patiently();
+
+  /// Whether the object rests in the pads alone although it may fall as well.
+  bool approach_rest();
   const SpatialRates& rest_rates() const { return rest_rates_; }  ///< if kHeld
   const SpatialForces& rest_forces() const { return rest_forces_; }
 
@@ -50,6 +56,8 @@ class SpatialSearch {
 
  private:
   bool attempt(const NewtonStart& start, int budget);
+  NewtonResult rest_from(NewtonStart start, int budget);
+  Hold judge_hold(bool patiently);
   bool approach_friction();
   bool approach_compliance();
   bool approach_statics();

@@ -4,19 +4,19 @@
 #include <cmath>
 #include <cstdint>
 
+#include "scene/split_mix.h"
+
 namespace prehensile {
 
-/// SplitMix64 (Steele, Lea, Flood 2014).
+/// SplitMix64.
 class RandomStream {
  public:
   explicit RandomStream(std::uint64_t seed) : state_(seed) {}
 
   std::uint64_t bits() {
-    state_ += 0x9e3779b97f4a7c15u;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
+    const std::uint64_t drawn = split_mix(state_);
+    state_ += kSplitMixStride;
+    return drawn;
   }
 
   /// Uniform in [low, high).

@@ -7,13 +7,12 @@
 #include "mechanics/certificate.h"
 #include "mechanics/planar_instant.h"
 #include "optimisation/nonlinear_program.h"
+#include "primitives/place_slack.h"
 #include "primitives/place_wrench.h"
 #include "primitives/space_place.h"
 
 namespace prehensile {
 namespace {
-
-constexpr int kPathSamples = 9;
 
 /// Moments and cone edges met to this still count as met.
 constexpr double kMet = 1e-7;
@@ -175,31 +174,12 @@ class Search {
     ++evaluations_;
     set_grip(grip);
     Trial trial{.place = place, .grip_force = grip};
-    const double speed = wanted_.velocity.norm();
-    const Vec2 e = speed > 0.0 ? Vec2(wanted_.velocity / speed) : Vec2(1.0, 0.0);
-    const LinearPush push = wanted_.push(0, place);
-    const int samples = wanted_.is_path ? kPathSamples : 1;
-    for (int k = 0; k < samples; ++k) {
-      const PlanarPose X_HO = pusher_pose(push, wanted_.X_HO, k / (kPathSamples - 1.0));
-      const StickTest nominal = exact_stick_test(model_, *contact_, place, X_HO, e, speed,
-                                                 wanted_.turn, Margin::none());
-      double robust = exact_stick_test(model_, *contact_, place, X_HO, e, speed,
-                                       wanted_.turn, options_.margin)
-                          .slack;
-      // Where the pads alone do not hold the object the motion is not the only one.
-      const Vec2 p_OF = finger_in_object(X_HO);
-      robust =
-          std::min(robust, holding_slack(model_, p_OF, contact_->g_O, options_.margin));
-      if (k == 0) {
-        trial.slack = nominal.slack;
-        trial.robust_slack = robust;
-        trial.push_force = nominal.push_force;
-        trial.centre = nominal.centre_of_pressure;
-      } else {
-        trial.slack = std::min(trial.slack, nominal.slack);
-        trial.robust_slack = std::min(trial.robust_slack, robust);
-      }
-    }
+    const StickAlong along =
+        stick_along(model_, *contact_, wanted_, place, options_.margin);
+    trial.slack = along.slack;
+    trial.robust_slack = along.robust_slack;
+    trial.push_force = along.push_force;
+    trial.centre = along.centre;
     return trial;
   }
 

@@ -69,6 +69,19 @@ std::vector<ContactVerdict> verdicts_of(const Model& model, const WantedMotion& 
 bool proves(const Model& model, const WantedMotion& wanted, const PlaceOptions& options,
             const ContactVerdict& verdict);
 
+/// How firmly a place sticks while the object makes the wanted motion: the slacks of a
+/// `PlacedPush`. NaN where the object does not make it.
+struct PlaceSlack {
+  double nominal = kNan;
+  double robust = kNan;
+};
+
+/// As the search judges places: over the real pads, and of a line in space by spatial
+/// instants (a point in space is not judged by its place: NaN). `model` is gripped with
+/// the force in question.
+PlaceSlack slack_at(const Model& model, const WantedMotion& wanted, int contact,
+                    double place, const Margin& margin);
+
 struct PlacedPush {
   bool found = false;
   LinearPush push;

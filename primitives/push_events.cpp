@@ -17,6 +17,9 @@ constexpr double kRoundOff = 1e-12;
 /// Share of a step to which limits are met: as closely as numbers allow.
 constexpr double kResolution = 1e-11;
 
+/// Share of the margin at the start of a step that counts as used up at its event.
+constexpr double kUsedUp = 0.1;
+
 /// A step may be continued beyond its end up to this many times its length, where its
 /// error is larger by this factor.
 constexpr double kContinued = 2.5;
@@ -76,6 +79,21 @@ Crossing PushRun<Instant>::first_crossing() {
   instant_.bring_back();
   if (at < first.at) first = {at, {}};
   return first;
+}
+
+/// Whether the motion that is followed holds its contact mode where the end of the mode
+/// was found, so that the end is one of another motion.
+template <class Instant>
+bool PushRun<Instant>::is_of_other_motion(const Crossing& crossing) {
+  if (Instant::kSmoothBeyondMode || crossing.limit || crossing.at == 0.0) return false;
+  instant_.set_aside();
+  instant_.resume();
+  Vec2 rate;
+  const double s = s_ + crossing.at * step_.h;
+  const bool holds = rate_in_mode(s, step_.at(crossing.at), rate) &&
+                     mode_margin() > kUsedUp * margin_ + instant_.noise();
+  instant_.bring_back();
+  return holds;
 }
 
 /// Whether the state inside the step is as good as steps have to be.

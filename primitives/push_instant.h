@@ -50,6 +50,7 @@ class PushInstant {
   /// A mode has one motion, wherever it is sought from.
   void keep() {}
   void resume() {}
+  static constexpr bool hopped() { return false; }
 
   /// The last answer is that of `solve`, not of a mode.
   bool is_solved() const { return answer().solved; }

@@ -47,6 +47,10 @@ void PushRun<Instant>::advance() {
   step_.rate = rate_;
   instant_.resume();
   if (!(rides() ? ride() : integrate())) return;
+  if (step_.h > 2.0 * control_.location() && instant_.hopped()) {
+    // The motion that is followed ends within this step, or was lost from sight.
+    return control_.land(0.5 * step_.h);
+  }
 
   const Crossing crossing = first_crossing();
   if (crossing.at > 1.0) {
@@ -54,6 +58,9 @@ void PushRun<Instant>::advance() {
     return accept(1.0);
   }
   const double location = control_.location();
+  if (step_.h > 2.0 * location && is_of_other_motion(crossing)) {
+    return control_.land(0.5 * step_.h);
+  }
   if (!crossing.limit && crossing.at == 0.0 && step_.h > 4.0 * location) {
     // Right after an event the new mode may last for less than this step.
     return control_.land(0.25 * step_.h);

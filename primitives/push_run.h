@@ -95,6 +95,7 @@ class PushRun {
   bool ride();
   double ride_length() const;
   bool is_close(double at);
+  bool is_of_other_motion(const Crossing& crossing);
   bool integrate();
   void land_at_kink();
   RateDerivatives derivatives(const BaseStep& base);

@@ -21,37 +21,108 @@ constexpr double kMostTurn = 0.499 * std::numbers::pi;
 constexpr double kEdge = 1e-9;        // [rad] of that angle
 constexpr double kRobustEdge = 1e-6;  // [rad] of angle or direction
 
+/// Margin below which the border is close: places for each of those rates of turn there,
+/// and the width to which a place between them is sought [rad].
+constexpr double kMostNear = 0.02;
+constexpr int kScanNear = 6;
+constexpr double kNarrow = 1e-3;
+
 /// Places in a range of which both ends slip with a member.
 constexpr int kScanInside = 10;
 
 /// Length of the push whose beginning is the instant [m].
 constexpr double kTravel = 0.01;
 
-/// The rates of turn for which `holds(atan(c omega / speed))`, [rad/m].
-template <class Holds>
-KappaSet rates_where(const Holds& holds, double c) {
+/// Where `sign * margin` is least in (low, high) as far as golden section finds it, or
+/// the first place where it is negative.
+template <class Margin>
+double least_place(const Margin& margin, double sign, double low, double high) {
+  constexpr double kGolden = 0.381966011250105;
+  double x = low + kGolden * (high - low);
+  double y = high - kGolden * (high - low);
+  double at_x = sign * margin(x);
+  double at_y = sign * margin(y);
+  while (at_x >= 0.0 && at_y >= 0.0 && high - low > kNarrow) {
+    if (at_x < at_y) {
+      high = y;
+      y = std::exchange(x, low + kGolden * (y - low));
+      at_y = std::exchange(at_x, sign * margin(x));
+    } else {
+      low = x;
+      x = std::exchange(y, high - kGolden * (high - x));
+      at_x = std::exchange(at_y, sign * margin(y));
+    }
+  }
+  return at_x < at_y ? x : y;
+}
+
+struct Looked {
+  double at = 0.0;  ///< atan(c omega / speed)
+  double margin = -1.0;
+};
+
+/// The margin over the rates of turn, ascending: over the whole range, more closely where
+/// it is close to zero, and where it turns back there without being seen to cross it.
+template <class Margin>
+std::vector<Looked> scanned(const Margin& margin) {
+  std::vector<Looked> scan;
+  const auto look = [&](double at) { scan.push_back({at, margin(at)}); };
+  look(-kMostTurn);
+  for (int k = 1; k <= kScan; ++k) {
+    const Looked before = scan.back();
+    const double at = kMostTurn * (2.0 * k / kScan - 1.0);
+    const double here = margin(at);
+    const bool is_near = std::min(std::abs(before.margin), std::abs(here)) < kMostNear;
+    for (int i = 1; is_near && i < kScanNear; ++i) {
+      look(before.at + (at - before.at) * i / kScanNear);
+    }
+    scan.push_back({at, here});
+  }
+  const std::size_t count = scan.size();
+  for (std::size_t k = 1; k + 1 < count; ++k) {
+    const double sign = scan[k].margin >= 0.0 ? 1.0 : -1.0;
+    const auto away = [&](std::size_t i) { return sign * scan[i].margin; };
+    const bool turns = away(k - 1) >= away(k) && away(k + 1) > away(k);
+    if (!turns || away(k) > kMostNear) continue;
+    look(least_place(margin, sign, scan[k - 1].at, scan[k + 1].at));
+  }
+  std::sort(scan.begin(), scan.end(),
+            [](const Looked& a, const Looked& b) { return a.at < b.at; });
+  return scan;
+}
+
+/// The rates of turn [rad/m] for which `margin(atan(c omega / speed))` is not negative.
+template <class Margin>
+KappaSet rates_where(const Margin& margin, double c) {
   const auto edge = [&](double inside, double outside) {
     while (std::abs(outside - inside) > kEdge) {
       const double middle = 0.5 * (inside + outside);
-      (holds(middle) ? inside : outside) = middle;
+      (margin(middle) >= 0.0 ? inside : outside) = middle;
     }
     return std::tan(inside) / c;
   };
-  KappaSet set;
-  double last = -kMostTurn;
-  bool was_inside = holds(last);
+  const std::vector<Looked> scan = scanned(margin);
+  std::vector<KappaSet::Interval> found;
   double low = -kInfinity;
-  for (int k = 1; k <= kScan; ++k) {
-    const double at = kMostTurn * (2.0 * k / kScan - 1.0);
-    const bool inside = holds(at);
-    if (inside && !was_inside) low = edge(at, last);
-    const bool ends = was_inside && (!inside || k == kScan);
-    if (ends && set.count < static_cast<int>(set.intervals.size())) {
-      set.intervals[set.count++] = {low, inside ? kInfinity : edge(last, at)};
+  for (std::size_t k = 1; k < scan.size(); ++k) {
+    const bool was_inside = scan[k - 1].margin >= 0.0;
+    const bool inside = scan[k].margin >= 0.0;
+    if (inside && !was_inside) low = edge(scan[k].at, scan[k - 1].at);
+    if (was_inside && (!inside || k + 1 == scan.size())) {
+      found.push_back({low, inside ? kInfinity : edge(scan[k - 1].at, scan[k].at)});
     }
-    was_inside = inside;
-    last = at;
   }
+  KappaSet set;
+  const auto width = [c](const KappaSet::Interval& rates) {
+    return std::atan(c * rates.hi) - std::atan(c * rates.lo);
+  };
+  const auto is_narrower = [&](const KappaSet::Interval& a, const KappaSet::Interval& b) {
+    return width(a) < width(b);
+  };
+  while (found.size() > set.intervals.size()) {
+    found.erase(std::min_element(found.begin(), found.end(), is_narrower));
+  }
+  for (const KappaSet::Interval& rates : found) set.intervals[set.count++] = rates;
   return set;
 }
 
@@ -170,10 +241,10 @@ SpatialVerdict sticks_in_space(const SpaceMember& member, int contact, double di
 MotionCone cone_in_space(const Model& model, const Grasp& grasp, int contact,
                          double place, const MotionCone& flat,
                          const std::vector<SpaceMember>& members) {
-  const auto sticks = [&](double direction, double turn) {
+  const auto margin = [&](double direction, double turn) {
     return sticks_in_space(model, grasp, contact, place, direction,
                            std::tan(turn) / flat.c)
-               .margin >= 0.0;
+        .margin;
   };
   const auto member_sticks = [&](const SpaceMember& member, double direction,
                                  double turn) {
@@ -182,14 +253,15 @@ MotionCone cone_in_space(const Model& model, const Grasp& grasp, int contact,
   };
   MotionCone cone = flat;
   cone.members = static_cast<int>(members.size());
-  cone.nominal = ranges_where([&](double direction) { return sticks(direction, 0.0); });
+  cone.nominal =
+      ranges_where([&](double direction) { return margin(direction, 0.0) >= 0.0; });
   cone.robust = robust_part(cone.nominal, members,
                             [&](const SpaceMember& member, double direction) {
                               return member_sticks(member, direction, 0.0);
                             });
   for (ConeSlice& slice : cone.slices) {
     slice.nominal =
-        rates_where([&](double turn) { return sticks(slice.direction, turn); }, flat.c);
+        rates_where([&](double turn) { return margin(slice.direction, turn); }, flat.c);
     std::vector<DirectionRange> turns;
     for (int i = 0; i < slice.nominal.count; ++i) {
       const KappaSet::Interval& rates = slice.nominal.intervals[i];

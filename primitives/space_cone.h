@@ -41,8 +41,9 @@ SpatialVerdict sticks_in_space(const SpaceMember& member, int contact, double di
 
 /// The cone of space with the slices of that of the pad plane. The robust part is what of
 /// the nominal one sticks with every member; edges of it are found to 1e-6 rad, and every
-/// edge of a range sticks with all. Rates of turn narrower than a twentieth of the range
-/// of atan(c omega / speed) may be missed, and gaps that a member leaves within a range.
+/// edge of a range sticks with all. Of more than four ranges of rates of turn in one
+/// direction the widest are kept. Ranges and gaps narrower than a degree of
+/// atan(c omega / speed) may be missed, and gaps that a member leaves within a range.
 /// A second or so, and for each hundred members as much again.
 MotionCone cone_in_space(const Model& model, const Grasp& grasp, int contact,
                          double place, const MotionCone& flat,

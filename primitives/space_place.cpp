@@ -50,7 +50,9 @@ double slack_of(const Model& model, const LinearPush& push, const PlanarPose& X_
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < (is_path ? kPathSamples : 1); ++k) {
     const double s = k / (kPathSamples - 1.0);
-    if (instant.solve(seat, s, Vec2::Zero(), Search::kAllMotions)) return -1.0;
+    if (instant.solve(seat, s, Vec2::Zero(), Search::kAllMotions)) {
+      return kNoMotionInSpace;
+    }
     least = std::min(least, instant.margin(seat, Regime::kStick).least());
   }
   return least;
@@ -73,12 +75,12 @@ double robust_slack_in_space(const Model& model, const WantedMotion& wanted, int
   box[Unknown::kCentreOfMassX] = box[Unknown::kCentreOfMassY] = margin.centre_of_mass;
   double least = slack_in_space(model, wanted, contact, place);
   const std::size_t corners = std::size_t{1} << box.active().size();
-  for (std::size_t i = 0; i < corners && least >= 0.0; ++i) {
+  for (std::size_t i = 0; i < corners && least > kNoMotionInSpace; ++i) {
     const BoxPoint at = corner(box, i);
     if (at[static_cast<std::size_t>(Unknown::kFriction)] > 0.0) continue;
     const std::optional<SpaceMember> member =
         space_member(model, {wanted.X_HO, 0.0}, contact, place, box, at);
-    if (!member) return -1.0;
+    if (!member) return kNoMotionInSpace;
     least =
         std::min(least, slack_in_space(member->model, wanted, contact, member->place));
   }

@@ -7,9 +7,12 @@
 
 namespace prehensile {
 
+/// Slack where there is no such motion.
+inline constexpr double kNoMotionInSpace = -1.0;
+
 /// Margin by which a line sticks, least along the wanted motion: dimensionless, through
-/// zero where it slips or tips; -1 where there is no such motion. `model` is gripped with
-/// the force in question.
+/// zero where it slips or tips; `kNoMotionInSpace` where there is none. `model` is
+/// gripped with the force in question.
 double slack_in_space(const Model& model, const WantedMotion& wanted, int contact,
                       double place);
 

@@ -10,6 +10,12 @@ namespace {
 
 constexpr double kLooseTolerance = 1e-7;
 
+/// Difference of two motions over the pusher's speed from which on they are not the same.
+constexpr double kOtherMotion = 1e-5;
+
+/// Of the answers that those to other questions start from.
+constexpr double kFirstTolerance = 1e-9;
+
 /// Motion across the pads over the largest deflection of a loaded point, from which on
 /// the object leaves the pad plane.
 constexpr double kMostYield = 10.0;
@@ -118,11 +124,21 @@ PushStop SpatialPushInstant::ask(Answer& now) noexcept {
   }
   ++count_;
   SpatialWarmStart warm = warm_;
+  if (!warm.valid || warm.last.count != now.problem.count) {
+    // Which of several motions is met first shall not depend on the tolerance.
+    SpatialSolveOptions first = options_;
+    first.tolerance = kFirstTolerance;
+    first.probe_multiplicity = false;
+    (void)solve_spatial(now.problem, first, &warm);
+  }
+  const SpatialWarmStart from = warm;
   now.instant = solve_spatial(now.problem, options_, &warm);
-  if (now.instant.status == InstantStatus::kOutOfIterations) {
-    // A looser answer is better than none; the certificate has the last word.
-    SpatialSolveOptions loose = options_;
-    loose.tolerance = kLooseTolerance;
+  // A looser answer is better than none; the certificate has the last word.
+  SpatialSolveOptions loose = options_;
+  loose.tolerance = kLooseTolerance;
+  for (const bool from_last : {true, false}) {
+    if (now.instant.status != InstantStatus::kOutOfIterations) break;
+    warm = from_last ? from : SpatialWarmStart{};
     now.instant = solve_spatial(now.problem, loose, &warm);
   }
   if (const PushStop stop = stop_of(now.instant.status)) return stop;
@@ -134,6 +150,32 @@ PushStop SpatialPushInstant::ask(Answer& now) noexcept {
     return {};
   }
   return {kLeavesPlane, EventKind::kOutOfPlane, way_out(now)};
+}
+
+void SpatialPushInstant::keep() {
+  const Answer& now = answer();
+  kept_ = {.valid = !now.stop, .last = now.instant};
+  kept_seat_ = now.seat;
+  kept_s_ = now.s;
+  kept_q_ = now.q;
+  kept_pattern_ = now.pattern;
+}
+
+bool SpatialPushInstant::hopped() noexcept {
+  const Answer& ahead = answer();
+  const bool differs = kept_.valid && !ahead.stop && ahead.pattern != kept_pattern_;
+  if (!differs || !same(ahead.seat, kept_seat_)) return false;
+  const SpatialWarmStart from{.valid = true, .last = ahead.instant};
+  set_aside();
+  answers_[now_].s = kNan;
+  warm_ = from;
+  const PushStop stop = solve(kept_seat_, kept_s_, kept_q_);
+  const SpatialTwist apart = answer().instant.V_HO - kept_.last.V_HO;
+  const double speed = apart.head<3>().norm() + model_->L * apart.tail<3>().norm();
+  bring_back();
+  warm_ = from;
+  return stop ? stop.status != TransitionStatus::kIterationLimit
+              : speed > kOtherMotion * scales_.speed;
 }
 
 InMode SpatialPushInstant::solve_in_mode(const Seat& seat, double s, const Vec2& q,
@@ -222,15 +264,23 @@ PushStop SpatialPushInstant::explained(const PushStop& stop) const noexcept {
     return {kFalls, EventKind::kGravityLost, "the grasp alone hardly holds gravity"};
   }
   const SpatialInstant* seen = &answer().instant;
-  SpatialInstant all;
+  SpatialInstant again;
   if (stop.status == kPusherLost) {
     SpatialSolveOptions thorough = options_;
     thorough.probe_multiplicity = true;
-    all = solve_spatial(answer().problem, thorough);
-    seen = &all;
-    if (all.status == InstantStatus::kAmbiguous) found = stop_of(all.status);
+    again = solve_spatial(answer().problem, thorough);
+    seen = &again;
+    if (again.status == InstantStatus::kAmbiguous) found = stop_of(again.status);
   }
-  // A second motion leaves no evidence of a fall.
+  if (found.status == kAmbiguous && !seen->evidence.allFinite()) {
+    // A second motion leaves no evidence of a fall.
+    SpatialSolveOptions plain = options_;
+    plain.probe_multiplicity = false;
+    SpatialWarmStart warm = warm_;
+    again = solve_spatial(answer().problem, plain, &warm);
+    seen = &again;
+    if (again.status != InstantStatus::kAmbiguous) return found;
+  }
   if (found.status != kAmbiguous || !seen->evidence.allFinite()) return found;
   return {kFalls, EventKind::kGravityLost, "the grasp alone does not hold gravity"};
 }

@@ -47,9 +47,12 @@ class SpatialPushInstant {
 
   /// Where motions lie next to each other the answer is the one next to the last. `keep`
   /// marks the answer at a place that the push has come to, and `resume` goes on from
-  /// there: trials beyond do not choose the motion.
-  void keep() { kept_ = {.valid = !answer().stop, .last = answer().instant}; }
+  /// there: trials beyond do not choose the motion. Whether the last answer belongs to
+  /// another motion than the one kept shows on the way back: from there the other one is
+  /// found at the place that was kept (`hopped`; false where it is not known).
+  void keep();
   void resume() { warm_ = kept_; }
+  bool hopped() noexcept;
 
   bool is_solved() const { return !answer().stop; }
 
@@ -109,6 +112,10 @@ class SpatialPushInstant {
   std::array<Answer, 2> answers_;
   SpatialWarmStart warm_;
   SpatialWarmStart kept_;
+  Seat kept_seat_;
+  double kept_s_ = 0.0;
+  Vec2 kept_q_ = Vec2::Zero();
+  int kept_pattern_ = -1;
   int now_ = 0;
   int count_ = 0;
 };

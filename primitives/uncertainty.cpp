@@ -5,17 +5,10 @@
 #include <numbers>
 
 #include "scene/outline.h"
+#include "scene/split_mix.h"
 
 namespace prehensile {
 namespace {
-
-/// SplitMix64 (Steele, Lea, Flood 2014).
-std::uint64_t mixed(std::uint64_t z) {
-  z += 0x9e3779b97f4a7c15u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
-}
 
 /// Place, direction and travel of a push, where it has them.
 struct MovePush {
@@ -104,9 +97,9 @@ UncertaintyBox box_of(const Scene& scene) {
 
 BoxPoint random_point(std::uint64_t seed, std::uint64_t index) {
   BoxPoint point;
-  std::uint64_t state = mixed(mixed(seed) + index);
+  std::uint64_t state = split_mix(split_mix(seed) + index);
   for (double& coordinate : point) {
-    state = mixed(state);
+    state = split_mix(state);
     coordinate = 2.0 * static_cast<double>(state >> 11) * 0x1.0p-53 - 1.0;
   }
   return point;
@@ -114,9 +107,9 @@ BoxPoint random_point(std::uint64_t seed, std::uint64_t index) {
 
 BoxPoint random_normal_point(std::uint64_t seed, std::uint64_t index) {
   BoxPoint point;
-  std::uint64_t state = mixed(mixed(seed) + index);
+  std::uint64_t state = split_mix(split_mix(seed) + index);
   const auto uniform = [&state] {  // in (0, 1]
-    state = mixed(state);
+    state = split_mix(state);
     return (static_cast<double>(state >> 11) + 1.0) * 0x1.0p-53;
   };
   for (double& coordinate : point) {

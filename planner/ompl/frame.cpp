@@ -11,6 +11,7 @@
 #include "planner/ompl/push_planner.h"
 #include "planner/ompl/solution.h"
 #include "planner/ompl/stock_planners.h"
+#include "scene/split_mix.h"
 
 namespace prehensile {
 namespace {
@@ -41,10 +42,7 @@ constexpr std::int64_t kMostIdleStates = 3'000;
 
 /// OMPL's seeds are never 0 and have 32 bits; neighbouring seeds give unrelated streams.
 std::uint_fast32_t ompl_seed(std::uint64_t seed) {
-  std::uint64_t z = seed + 0x9e3779b97f4a7c15;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-  return static_cast<std::uint32_t>((z ^ (z >> 31)) >> 32) | 1U;
+  return static_cast<std::uint32_t>(split_mix(seed) >> 32) | 1U;
 }
 
 /// While it lives, OMPL's random numbers follow from the seed and its log is quiet.

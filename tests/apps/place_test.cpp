@@ -1,5 +1,6 @@
 /// `query place` as its users meet it: the push it names does what was wanted.
 #include <cmath>
+#include <sstream>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -80,6 +81,45 @@ TEST(PlaceQuery, WritesTableAndPicture) {
     EXPECT_TRUE(read_text(csv).starts_with("contact,place_m,"));
     EXPECT_TRUE(read_text(svg).starts_with("<?xml"));
   }
+}
+
+// In space the curve runs through what the answer states, and a point has none.
+TEST(PlaceQuery, DrawsPlacesOfSpace) {
+  const Folder folder;
+  const std::string csv = folder.path("margin.csv").string();
+  const std::string svg = folder.path("place.svg").string();
+  const std::string ask =
+      "query place problems/tilted_hand.yaml --json --csv " + csv + " --plot " + svg;
+  const Outcome out = run_program(ask + " --to 5,0,0");
+  ASSERT_EQ(out.exit_code, 0) << out.err;
+  const json push = json::parse(out.out).at("push");
+  std::istringstream lines(read_text(csv));
+  std::string line;
+  std::getline(lines, line);
+  double above = -1.0;
+  double most = -1.0;
+  double most_robust = -1.0;
+  int rows = 0;
+  while (std::getline(lines, line)) {
+    ++rows;
+    std::istringstream fields(line.substr(line.find(',') + 1));
+    double place = 0.0, slack = 0.0, robust = 0.0;
+    char comma = 0;
+    ASSERT_TRUE(fields >> place >> comma >> slack >> comma >> robust) << line;
+    EXPECT_LE(robust, slack) << line;
+    most = std::max(most, slack);
+    most_robust = std::max(most_robust, robust);
+    if (slack >= 0.0) above = place;
+  }
+  EXPECT_EQ(rows, 201);
+  EXPECT_NEAR(most, push.at("slack").get<double>(), 1e-3);
+  EXPECT_NEAR(most_robust, push.at("robust_slack").get<double>(), 2e-3);
+  EXPECT_LT(above, 0.039);
+  EXPECT_NE(read_text(svg).find("Margin against place"), std::string::npos);
+
+  EXPECT_EQ(run_program(ask + " --twist 0,3,0").exit_code, 0);
+  EXPECT_EQ(read_text(csv), "contact,place_m,slack,robust_slack\n");
+  EXPECT_EQ(read_text(svg).find("Margin against place"), std::string::npos);
 }
 
 TEST(PlaceQuery, WrongUseIsBadInput) {

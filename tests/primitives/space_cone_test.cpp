@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -97,6 +98,58 @@ void look_beside_the_edges(int scenes) {
 TEST(SpaceCone, EdgesAreWhereInstantsChange) { look_beside_the_edges(3); }
 
 TEST(SpaceCone, FullEdgesAreWhereInstantsChange) { look_beside_the_edges(40); }
+
+// A scan a hundred times as dense finds no range and no gap of a degree or more that the
+// slices lack, where these have room for all ranges.
+void scan_densely(int scenes) {
+  constexpr int kPlaces = 4000;
+  constexpr int kDegree = kPlaces / 180;
+  int slices = 0;
+  int full = 0;
+  int narrow = 0;
+  for (int index = 0; slices < 6 * scenes; ++index) {
+    const RandomPush c = random_spatial_push(55, index);
+    const Model model = prepare(c.scene);
+    const Grasp& start = c.scene.start;
+    if (model.contacts[0].is_point || !model.push_needs_space(model.contacts[0]))
+      continue;
+    const MotionCone flat =
+        motion_cone(cone_member(model, 0, c.push.place, start.X_HO), {}, 25);
+    const MotionCone cone = cone_in_space(model, start, 0, c.push.place, flat);
+    for (const ConeSlice& slice : cone.slices) {
+      if (slice.nominal.count == 0) continue;
+      ++slices;
+      if (slice.nominal.count == static_cast<int>(slice.nominal.intervals.size())) {
+        ++full;
+        continue;
+      }
+      int wrong = 0;
+      int longest = 0;
+      for (int k = 1; k < kPlaces; ++k) {
+        const double rate =
+            std::tan(0.498 * std::numbers::pi * (2.0 * k / kPlaces - 1.0)) / cone.c;
+        const SpatialVerdict verdict =
+            sticks_in_space(model, start, 0, c.push.place, slice.direction, rate);
+        const bool differs =
+            verdict.is_known && (verdict.margin >= 0.0) != slice.nominal.contains(rate);
+        wrong = differs ? wrong + 1 : 0;
+        longest = std::max(longest, wrong);
+      }
+      EXPECT_LT(longest, kDegree) << index << " " << slice.direction;
+      narrow += longest > 0 ? 1 : 0;
+    }
+  }
+  std::printf(
+      "of %d slices %d have all ranges they have room for, and %d lack one or a "
+      "gap of less than a degree\n",
+      slices, full, narrow);
+  EXPECT_LE(full, slices / 10);
+  EXPECT_LE(narrow, 2 + slices / 10);
+}
+
+TEST(SpaceCone, HasWhatADenseScanFinds) { scan_densely(1); }
+
+TEST(SpaceCone, FullHasWhatADenseScanFinds) { scan_densely(20); }
 
 std::vector<SpaceMember> corners_of(const Model& model, const Grasp& start,
                                     double place) {

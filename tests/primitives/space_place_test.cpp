@@ -185,5 +185,44 @@ TEST(SpacePlace, FullPlacesOfThePadPlaneStickWhereTheSceneIsSymmetric) {
   compare_places_with_the_pad_plane(120);
 }
 
+// Curves run through the answer, and end where the object does not make the motion.
+TEST(SpacePlace, SlackAtThePlaceFoundIsThatOfTheAnswer) {
+  for (const Ride& ride : rides(71, 4)) {
+    const PlacedPush best = find_place(ride.model, ride.wanted).best;
+    ASSERT_TRUE(best.found);
+    const Margin margin = PlaceOptions{}.margin;
+    const PlaceSlack slack =
+        slack_at(ride.model, ride.wanted, best.push.contact, best.push.place, margin);
+    EXPECT_DOUBLE_EQ(slack.nominal, best.slack);
+    // Where a member of the box does not make the motion there is no curve.
+    if (best.robust_slack == kNoMotionInSpace) {
+      EXPECT_TRUE(std::isnan(slack.robust));
+    } else {
+      EXPECT_DOUBLE_EQ(slack.robust, best.robust_slack);
+      EXPECT_LE(slack.robust, slack.nominal);
+    }
+
+    WantedMotion back = ride.wanted;
+    back.velocity *= -1.0;
+    const PlaceSlack none =
+        slack_at(ride.model, back, best.push.contact, best.push.place, margin);
+    EXPECT_FALSE(none.nominal >= 0.0);
+  }
+}
+
+// A point makes a wanted motion at one place only: nothing to be drawn over places.
+TEST(SpacePlace, APointInSpaceHasNoSlackOverPlaces) {
+  for (int index = 0;; ++index) {
+    const RandomPush c = random_spatial_push(72, index);
+    const Model model = prepare(c.scene);
+    if (!model.contacts[0].is_point || !model.push_needs_space(model.contacts[0]))
+      continue;
+    const WantedMotion wanted = motion_of_twist(c.scene.start.X_HO, {0.01, 0.0, 0.0});
+    const PlaceSlack slack = slack_at(model, wanted, 0, 0.0, Margin::none());
+    EXPECT_TRUE(std::isnan(slack.nominal) && std::isnan(slack.robust));
+    return;
+  }
+}
+
 }  // namespace
 }  // namespace prehensile

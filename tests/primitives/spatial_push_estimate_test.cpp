@@ -17,6 +17,9 @@ using testing::distance;
 /// Errors of the reference itself [m].
 constexpr double kReference = 3e-9;
 
+constexpr TransitionOptions kFine{
+    .tolerance = 1e-8, .max_step = 0.02, .max_steps = 20000};
+
 struct Honesty {
   int sticking = 0;
   int integrated = 0;
@@ -41,8 +44,7 @@ Honesty honesty(std::uint64_t seed, int first, int count) {
     const Transition t = apply(model, c.scene.start, c.push);
     const double time = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     EXPECT_NE(t.status, TransitionStatus::kUncertified) << index;
-    const Transition reference =
-        apply(model, c.scene.start, c.push, {.tolerance = 1e-8, .max_step = 0.02});
+    const Transition reference = apply(model, c.scene.start, c.push, kFine);
     if (t.status != reference.status) {
       ++sum.unlike;
       continue;
@@ -76,10 +78,10 @@ Honesty honesty(std::uint64_t seed, int first, int count) {
 void expect_honest(const Honesty& found, int count) {
   EXPECT_GT(found.integrated, count / 3);
   EXPECT_GT(found.sticking, count / 20);
-  EXPECT_LE(found.under, 1 + 0.05 * found.integrated);
-  EXPECT_LE(found.over, 1 + 0.15 * found.integrated);
-  EXPECT_LE(found.unlike, 1 + 0.02 * count);
-  EXPECT_LE(found.missed, 1 + 0.03 * count);
+  EXPECT_LE(found.under, std::max(1.0, 0.01 * found.integrated));
+  EXPECT_LE(found.over, std::max(4.0, 0.10 * found.integrated));
+  EXPECT_LE(found.unlike, 1 + 0.01 * count);
+  EXPECT_LE(found.missed, 1 + 0.01 * count);
   EXPECT_LT(quantile(found.error, 0.5), 1e-6);
 }
 
@@ -88,9 +90,26 @@ TEST(SpatialPushEstimate, IsHonest) { expect_honest(honesty(31, 0, 40), 40); }
 class SpatialPushEstimateFull : public ::testing::TestWithParam<int> {};
 
 TEST_P(SpatialPushEstimateFull, IsHonest) {
-  expect_honest(honesty(32, 250 * GetParam(), 250), 250);
+  expect_honest(honesty(32, 500 * GetParam(), 500), 500);
 }
 INSTANTIATE_TEST_SUITE_P(Quarters, SpatialPushEstimateFull, ::testing::Range(0, 4));
+
+// Pushes that meet two motions next to each other (36, 134, 199, 1726), tilt where the
+// motion followed ends (1605), or end where the pads just hold the object (1597, 1641,
+// 1657): the end is that of the reference, within the estimate.
+TEST(SpatialPushEstimate, FollowsOneMotionToItsEnd) {
+  for (const int index : {36, 134, 199, 1597, 1605, 1641, 1657, 1726}) {
+    const RandomPush c = random_spatial_push(32, index);
+    const Model model = prepare(c.scene);
+    const Transition t = apply(model, c.scene.start, c.push);
+    const Transition reference = apply(model, c.scene.start, c.push, kFine);
+    EXPECT_EQ(t.status, reference.status) << index;
+    EXPECT_EQ(t.event_count, reference.event_count) << index;
+    EXPECT_LE(distance(t.end.X_HO, reference.end.X_HO, model.c),
+              3.0 * t.error_estimate + kReference)
+        << index;
+  }
+}
 
 // Pushes of 40 mm on boxes large enough for them.
 TEST(SpatialPushTimeFull, FortyMillimetres) {

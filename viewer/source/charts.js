@@ -56,7 +56,7 @@ export class Chart {
       this.plot.append(svg('line', {class: value === 0 ? 'zero' : 'grid', x1: kLeft, x2: kWidth - kRight, y1: y, y2: y}),
         svg('text', {x: kLeft - 6, y: y + 4, class: 'tick end'}, String(value)));
     }
-    for (const time of ticks(0, this.duration, 8)) {
+    for (const time of ticks(0, this.duration, 3)) {
       this.plot.append(svg('text', {x: this.#x(time), y: kHeight - 4, class: 'tick middle'}, `${time} s`));
     }
   }

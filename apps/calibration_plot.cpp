@@ -84,6 +84,13 @@ plot::Chart profile_chart(const CalibratedSetup& setup, std::size_t j) {
   chart.y.label = "rise of - log likelihood";
   chart.y.low = 0.0;
   chart.y.high = 3.0 * parameter.profile.limit;
+  const FitInterval& interval = parameter.profile.interval;
+  if (parameter.told) {
+    // The search for the ends starts far outside: the picture does not.
+    const double beyond = 0.4 * interval.half_width();
+    chart.x.low = shown.factor * (interval.low - beyond);
+    chart.x.high = shown.factor * (interval.high + beyond);
+  }
   plot::Line line{.colour = plot::Colour::kBlue, .marks = true};
   for (const ProfilePoint& point : parameter.profile.points) {
     line.points.push_back({shown.factor * point.value, point.rise});

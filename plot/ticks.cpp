@@ -14,18 +14,23 @@ constexpr double kLeast = 1e-300;
 /// Ranges narrower than this share of their values cannot be labelled.
 constexpr double kNarrow = 1e-9;
 
-/// The smallest of 1, 2, 5 times a power of ten that is not below `step`.
-double round_step(double step) {
+/// The step, 1, 2 or 5 times a power of ten, of about `wanted` ticks: never so wide that
+/// fewer than four are in the range, unless fewer are wanted.
+double round_step(double width, int wanted) {
+  const double step = width / wanted;
+  const double most = width / std::min(wanted, 4);
   const double power = std::pow(10.0, std::floor(std::log10(step)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= step * (1.0 - 1e-9)) return factor * power;
+  double out = power;
+  for (const double factor : {2.0, 5.0, 10.0}) {
+    if (out >= step * (1.0 - 1e-9) || factor * power > most * (1.0 + 1e-9)) break;
+    out = factor * power;
   }
-  return 10.0 * power;
+  return out;
 }
 
 Ticks linear_ticks(const Range& range, int wanted) {
   Ticks out;
-  const double step = round_step((range.high - range.low) / wanted);
+  const double step = round_step(range.high - range.low, wanted);
   const double largest = std::max(std::abs(range.low), std::abs(range.high));
   const int magnitude = static_cast<int>(std::floor(std::log10(largest) + 1e-9));
   if (magnitude >= 5 || magnitude <= -4) {
@@ -47,12 +52,12 @@ Ticks linear_ticks(const Range& range, int wanted) {
 Ticks log_ticks(const Range& range, int wanted) {
   const double low = std::log10(range.low);
   const double high = std::log10(range.high);
-  if (high - low < 0.7) {
+  if (high - low < 1.0) {
     return linear_ticks({range.low, range.high, Scale::kLinear}, wanted);
   }
   Ticks out;
   const int stride = std::max(1, static_cast<int>(std::ceil((high - low) / wanted)));
-  const bool between = high - low <= 2.3;
+  const bool between = high - low <= 3.0;
   const bool plain = low > -3.5 && high < 4.5;
   for (int decade = static_cast<int>(std::floor(low)); decade <= std::ceil(high);
        ++decade) {

@@ -35,6 +35,9 @@ class Calibrator {
       CalibratedParameter& parameter = out_.parameters[static_cast<std::size_t>(j)];
       parameter.value = out_.fit.at[j];
       parameter.told = !held_[static_cast<std::size_t>(j)];
+      if (parameter.told) {
+        sample_profile(problem_, rows_, out_.fit, j, held_, parameter.profile);
+      }
     }
     out_.before = residuals(start_of(problem_), rows_);
     out_.after = residuals(out_.fit.at, rows_);

@@ -75,6 +75,15 @@ class ProfileSide {
     return centre + direction * outer;
   }
 
+  /// Points at equal distances from the best fit to `last`.
+  void sample(double last, int count, std::vector<ProfilePoint>& points) {
+    const double centre = best_.at[parameter_];
+    near_ = best_.at;
+    for (int i = 1; i <= count; ++i) {
+      rise(centre + (last - centre) * i / count, points);
+    }
+  }
+
  private:
   double rise(double value, std::vector<ProfilePoint>& points) {
     Eigen::VectorXd start = near_;
@@ -95,6 +104,12 @@ class ProfileSide {
   double limit_;
   Eigen::VectorXd near_;
 };
+
+void sort_points(Profile& profile) {
+  std::sort(
+      profile.points.begin(), profile.points.end(),
+      [](const ProfilePoint& a, const ProfilePoint& b) { return a.value < b.value; });
+}
 
 }  // namespace
 
@@ -127,10 +142,21 @@ Profile profile(const FitProblem& problem, std::span<const int> rows, const Fit&
   out.points.push_back({centre, 0.0});
   out.interval.high = ProfileSide(problem, rows, best, parameter, held, out.limit)
                           .end(first, p.high, open_high, out.points);
-  std::sort(
-      out.points.begin(), out.points.end(),
-      [](const ProfilePoint& a, const ProfilePoint& b) { return a.value < b.value; });
+  sort_points(out);
   return out;
+}
+
+void sample_profile(const FitProblem& problem, std::span<const int> rows, const Fit& best,
+                    int parameter, const std::vector<bool>& held, Profile& profile) {
+  constexpr int kPoints = 8;  // of each side
+  constexpr double kBeyond = 0.3;
+  const FitParameter& p = problem.parameters[static_cast<std::size_t>(parameter)];
+  const FitInterval& interval = profile.interval;
+  const double beyond = kBeyond * interval.half_width();
+  ProfileSide side(problem, rows, best, parameter, held, profile.limit);
+  side.sample(std::max(p.low, interval.low - beyond), kPoints, profile.points);
+  side.sample(std::min(p.high, interval.high + beyond), kPoints, profile.points);
+  sort_points(profile);
 }
 
 double student_quantile(double share, int freedom) {

@@ -103,6 +103,11 @@ Profile profile(const FitProblem& problem, std::span<const int> rows, const Fit&
                 int parameter, const std::vector<bool>& held, const FitCovariance& spread,
                 const FitOptions& options = {});
 
+/// Adds points at equal distances, from the best fit to a little beyond both ends of the
+/// interval: for a picture, as the search for the ends looks there and hardly elsewhere.
+void sample_profile(const FitProblem& problem, std::span<const int> rows, const Fit& best,
+                    int parameter, const std::vector<bool>& held, Profile& profile);
+
 /// Quantile of Student's t, share in (0, 1), freedom >= 3; within 1 % (expansion of
 /// Abramowitz and Stegun 26.7.5).
 double student_quantile(double share, int freedom);

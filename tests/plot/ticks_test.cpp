@@ -1,5 +1,6 @@
 #include "plot/ticks.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -48,6 +49,24 @@ TEST(Ticks, DecadesOnALogarithmicAxis) {
   labels.clear();
   for (const Tick& tick : two.ticks) labels.insert(tick.label);
   for (const char* label : {"1", "2", "5", "10"}) EXPECT_TRUE(labels.contains(label));
+}
+
+TEST(Ticks, AxesOfAnyRangeHaveEnoughOfThem) {
+  RandomStream random(6);
+  for (int i = 0; i < 20000; ++i) {
+    const bool log = random.chance(0.4);
+    const double low = log ? random.log_in(1e-3, 1e3) : random.in(-100.0, 100.0);
+    const double high =
+        log ? low * random.log_in(1.3, 1e12) : low + random.log_in(1e-3, 1e3);
+    const int wanted = random.chance(0.5) ? 4 : 7;
+    const Ticks ticks =
+        ticks_of(range_of(low, high, log ? Scale::kLog : Scale::kLinear), wanted);
+    const auto labelled =
+        std::count_if(ticks.ticks.begin(), ticks.ticks.end(),
+                      [](const Tick& tick) { return !tick.label.empty(); });
+    ASSERT_GE(labelled, log ? 2 : 4) << low << ' ' << high;
+    ASSERT_LE(labelled, 10) << low << ' ' << high;
+  }
 }
 
 TEST(Ticks, RandomRangesOfAllSizesHaveDistinctTicksInside) {

@@ -8,11 +8,11 @@ const kRight = 8;
 const kTop = 8;
 const kBottom = 18;
 
-/// Round steps: about `count` of them.
-function ticks(low, high, count) {
-  const raw = (high - low) / count || 1;
+/// Round values, `least` of them or up to thrice as many.
+function ticks(low, high, least) {
+  const raw = (high - low) / (least + 1) || 1;
   const power = 10 ** Math.floor(Math.log10(raw));
-  const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= raw);
+  const step = [5, 2, 1].map((m) => m * power).find((s) => s <= raw * (1 + 1e-9));
   const out = [];
   for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) out.push(Number((i * step).toPrecision(12)));
   return out;
@@ -56,7 +56,7 @@ export class Chart {
       this.plot.append(svg('line', {class: value === 0 ? 'zero' : 'grid', x1: kLeft, x2: kWidth - kRight, y1: y, y2: y}),
         svg('text', {x: kLeft - 6, y: y + 4, class: 'tick end'}, String(value)));
     }
-    for (const time of ticks(0, this.duration, 8)) {
+    for (const time of ticks(0, this.duration, 3)) {
       this.plot.append(svg('text', {x: this.#x(time), y: kHeight - 4, class: 'tick middle'}, `${time} s`));
     }
   }

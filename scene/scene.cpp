@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <set>
 
 #include <Eigen/Cholesky>
@@ -280,14 +281,40 @@ void check_calibration(Checker& checker, const CalibrationRecord& record) {
   }
 }
 
+/// A place far from the border of a face, on a grid; of equal ones the nearest to p_OF.
+Vec2 middle_of(const std::vector<Vec2>& face, const Vec2& p_OF) {
+  constexpr int kGrid = 25;
+  constexpr double kPerDistance = 0.01;
+  Vec2 low = face.front(), high = face.front();
+  for (const Vec2& p : face) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const auto worth = [&](const Vec2& p) {
+    return depth_inside(face, p) - kPerDistance * (p - p_OF).norm();
+  };
+  Vec2 best = low;
+  for (int i = 0; i < kGrid * kGrid; ++i) {
+    const Vec2 share((i % kGrid + 0.5) / kGrid, (i / kGrid + 0.5) / kGrid);
+    const Vec2 p = low + share.cwiseProduct(high - low);
+    if (worth(p) > worth(best)) best = p;
+  }
+  return best;
+}
+
 void check_start_is_held(Checker& checker, const Scene& scene) {
   const std::vector<Vec2> face = pad_face_of(scene.object.shape);
   const Vec2 p_OF = finger_in_object(scene.start.X_HO);
   if (contains(face, p_OF) && ContactRegion(scene, 16).at(scene.start.X_HO).count > 0) {
     return;
   }
-  checker.fault("start", "the finger axis is at " + text(p_OF) +
-                             " in the object: expected the pads on the object");
+  const Vec2 middle = -rotated(scene.start.X_HO.theta, middle_of(face, p_OF));
+  char hint[64];
+  std::snprintf(hint, sizeof hint, " (say x: %.3g, y: %.3g)", middle.x() + 0.0,
+                middle.y() + 0.0);
+  const Vec2 shown = p_OF.array() + 0.0;  // -0 becomes 0
+  checker.fault("start", "the finger axis is at " + text(shown) +
+                             " in the object: expected the pads on the object" + hint);
 }
 
 }  // namespace

@@ -145,20 +145,41 @@ Json gripper_json(const Model& model) {
           {"grip_force", number(gripper.grip_force)}};
 }
 
-Json pushers_json(const Model& model) {
+/// Where a pusher stands in the world [m, rad]: as the scene says; where nothing is
+/// pushed, the object stands at O, and the pusher against the first face that it may
+/// push.
+struct Stand {
+  Vec2 p;
+  double angle;
+};
+
+Stand stand_of(const Model& model, const Film& film, int pusher) {
+  const Scene& scene = model.scene;
+  const auto contact =
+      std::find_if(model.contacts.begin(), model.contacts.end(),
+                   [pusher](const PushContact& c) { return c.pusher == pusher; });
+  if (!film.pushes.empty() || contact == model.contacts.end()) {
+    const Pusher& stated = scene.pushers[static_cast<std::size_t>(pusher)];
+    return {stated.p_WP, stated.normal_angle};
+  }
+  return {0.5 * (contact->a + contact->b), std::atan2(contact->n.y(), contact->n.x())};
+}
+
+Json pushers_json(const Model& model, const Film& film) {
   Json out = Json::array();
-  for (const Pusher& pusher : model.scene.pushers) {
+  for (std::size_t i = 0; i < model.scene.pushers.size(); ++i) {
+    const Pusher& pusher = model.scene.pushers[i];
     const PusherBody body = pusher_body(model, pusher);
-    out.push_back(
-        {{"name", pusher.name},
-         {"feature", std::string(name(body.kind))},
-         {"length", fine(body.length)},
-         {"width", fine(body.width)},
-         {"goes_on_along", body.goes_on_along},
-         {"goes_on_across", body.goes_on_across},
-         {"p_WP", {fine(pusher.p_WP.x()), fine(pusher.p_WP.y()), fine(pusher.z_WP)}},
-         {"normal_angle", fine(pusher.normal_angle)},
-         {"friction", number(pusher.friction)}});
+    const Stand at = stand_of(model, film, static_cast<int>(i));
+    out.push_back({{"name", pusher.name},
+                   {"feature", std::string(name(body.kind))},
+                   {"length", fine(body.length)},
+                   {"width", fine(body.width)},
+                   {"goes_on_along", body.goes_on_along},
+                   {"goes_on_across", body.goes_on_across},
+                   {"p_WP", {fine(at.p.x()), fine(at.p.y()), fine(pusher.z_WP)}},
+                   {"normal_angle", fine(at.angle)},
+                   {"friction", number(pusher.friction)}});
   }
   return out;
 }
@@ -341,7 +362,7 @@ std::string to_json(const Model& model, const Plan& plan, const Film& film,
               {"g_W", {number(scene.g_W.x()), number(scene.g_W.y()), number(scene.g_Wz)}},
               {"object", object_json(model, film.surface)},
               {"gripper", gripper_json(model)},
-              {"pushers", pushers_json(model)},
+              {"pushers", pushers_json(model, film)},
               {"obstacles", obstacles_json(model)},
               {"limits", limits_json(model)},
               {"start", grasp(scene.start)},

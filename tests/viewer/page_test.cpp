@@ -188,6 +188,15 @@ TEST(Page, ARefusalSaysWhy) {
   EXPECT_EQ(data[0].at("verdict").at("usable"), false);
   EXPECT_EQ(data[0].at("verdict").at("proof"), "nothing can touch it");
   EXPECT_TRUE(data[0].at("pushes").empty());
+  // The object stands at O, each pusher at a face of it.
+  const json& pushers = data[0].at("pushers");
+  ASSERT_EQ(pushers.size(), model.scene.pushers.size());
+  for (const PushContact& contact : model.contacts) {
+    const json& pusher = pushers[static_cast<std::size_t>(contact.pusher)];
+    const Vec2 p(pusher.at("p_WP")[0].get<double>(), pusher.at("p_WP")[1].get<double>());
+    EXPECT_NEAR((p - contact.a).dot(contact.n), 0.0, 1e-6);
+    EXPECT_GT((-p).dot(contact.n), 0.0);
+  }
 }
 
 TEST(KeyFrames, OnePicturePerPush) {

@@ -247,7 +247,8 @@ bool read_options(int count, char** arguments, Options& options) {
                         options.seeds = 1;
                         options.time_ms = 50;
                       }) &&
-         is_set(options.set) && (options.plans == "robust" || options.plans == "nominal") &&
+         is_set(options.set) &&
+         (options.plans == "robust" || options.plans == "nominal") &&
          (options.theta == "angle" || options.theta == "number");
 }
 

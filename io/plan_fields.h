@@ -41,8 +41,8 @@ inline const auto kStatusWords = named(
                PlanStatus::kUnsupported});
 inline const auto kPromiseWords = named(std::array{
     Promise::kNominal, Promise::kNominalOnly, Promise::kMargin, Promise::kScene});
-inline constexpr std::array<Word<bool>, 2> kBoundWords = {{{true, "distances"},
-                                                          {false, "contacts"}}};
+inline constexpr std::array<Word<bool>, 2> kBoundWords = {
+    {{true, "distances"}, {false, "contacts"}}};
 inline const auto kProofWords = named(
     std::array{Proof::Kind::kGoalOffObject, Proof::Kind::kStartFalls,
                Proof::Kind::kGoalFalls, Proof::Kind::kNoPusher, Proof::Kind::kNoRoll,
@@ -177,9 +177,10 @@ void visit_costs(Fields& fields, WrittenPlan& record) {
   fields.number("placements", plan.placements, kCosts, kRequired, "S: of a pusher.");
   fields.measured("travel", plan.travel, kDistances, "T: path length of the plan.");
   fields.measured("lower_bound", plan.lower_bound, kCosts, "No plan costs less.");
-  fields.word("bound_by", plan.bound_is_trivial, kBoundWords, kOptional,
-              "What the bound knows: the distances to the goal alone, or what the contacts "
-              "allow as well.");
+  fields.word(
+      "bound_by", plan.bound_is_trivial, kBoundWords, kOptional,
+      "What the bound knows: the distances to the goal alone, or what the contacts "
+      "allow as well.");
   fields.measured("gap", record.gap, {-1.0, 1e12, ""},
                   "(cost - lower_bound) / lower_bound; for people, not read back.");
   fields.measured("published_cost", plan.published_cost, kCosts,

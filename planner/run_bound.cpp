@@ -277,42 +277,25 @@ class Barrier {
   bool take_goal() {
     const int u = kRest - 3, z = kRest - 2;
     const double share = x_[kShare];
-    const double off_u = x_[u] + x_[kRestU] - p_.goal_u - p_.arc_u * share;
-    const double off_depth = x_[kRest] - p_.goal_depth - p_.arc_depth * share;
-    const double end_z = x_[z] + x_[kRestZ];
+    const Vec2 arc(p_.arc_u, p_.arc_depth);
+    const Vec2 off =
+        Vec2(x_[u] + x_[kRestU] - p_.goal_u, x_[kRest] - p_.goal_depth) - share * arc;
     for (int i = 0; i < 2; ++i) {
       const double room = p_.goal.slack[i] + p_.goal.slope[i] * share + x_[kV];
-      for (int corner = 0; corner < 4; ++corner) {
-        const Vec2 w = corner_of_goal(corner);
+      for (int k = 0; k < kGoalDirections; ++k) {
+        const Vec2 w = goal_direction(k);
         Gradient slope;
         slope.add(u, -w.x());
         slope.add(kRestU, -w.x());
         slope.add(kRest, -w.y());
-        slope.add(kShare, p_.goal.slope[i] + w.dot(Vec2(p_.arc_u, p_.arc_depth)));
+        slope.add(kShare, p_.goal.slope[i] + w.dot(arc));
         slope.add(kV, 1.0);
-        if (!take(room - w.dot(Vec2(off_u, off_depth)), slope,
-                  &y_.goal_corner[i][corner])) {
-          return false;
-        }
+        if (!take(room - w.dot(off), slope, &y_.goal[i][k])) return false;
       }
     }
+    const double end_z = x_[z] + x_[kRestZ];
     for (int e = 0; e < 2; ++e) {
       const double side = e == 0 ? -1.0 : 1.0;
-      for (int i = 0; i < 2; ++i) {
-        const double room = p_.goal.slack[i] + p_.goal.slope[i] * share + x_[kV];
-        Gradient by_u, by_depth;
-        by_u.add(u, -side);
-        by_u.add(kRestU, -side);
-        by_u.add(kShare, p_.goal.slope[i] + side * p_.arc_u);
-        by_u.add(kV, 1.0);
-        by_depth.add(kRest, -side);
-        by_depth.add(kShare, p_.goal.slope[i] + side * p_.arc_depth);
-        by_depth.add(kV, 1.0);
-        if (!take(room - side * off_u, by_u, &y_.goal_u[i][e]) ||
-            !take(room - side * off_depth, by_depth, &y_.goal_depth[i][e])) {
-          return false;
-        }
-      }
       Gradient by_z, by_share;
       by_z.add(z, -side);
       by_z.add(kRestZ, -side);

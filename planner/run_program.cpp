@@ -116,23 +116,13 @@ EndTerms terms_of_goal(const RunProgram& p, const RunMultipliers& y) {
   EndTerms terms;
   double share = 0.0;
   for (int i = 0; i < 2; ++i) {
-    for (int e = 0; e < 2; ++e) {
-      const double side = e == 0 ? -1.0 : 1.0;
-      const double of_u = y.goal_u[i][e], of_depth = y.goal_depth[i][e];
-      terms.u += side * of_u;
-      terms.depth += side * of_depth;
-      terms.least -= of_u * (p.goal.slack[i] + side * p.goal_u) +
-                     of_depth * (p.goal.slack[i] + side * p.goal_depth);
-      share -= of_u * (p.goal.slope[i] + side * p.arc_u) +
-               of_depth * (p.goal.slope[i] + side * p.arc_depth);
-    }
-    for (int corner = 0; corner < 4; ++corner) {
-      const double of_corner = y.goal_corner[i][corner];
-      const Vec2 w = corner_of_goal(corner);
-      terms.u += w.x() * of_corner;
-      terms.depth += w.y() * of_corner;
-      terms.least -= of_corner * (p.goal.slack[i] + w.dot(Vec2(p.goal_u, p.goal_depth)));
-      share -= of_corner * (p.goal.slope[i] + w.dot(Vec2(p.arc_u, p.arc_depth)));
+    for (int k = 0; k < kGoalDirections; ++k) {
+      const double y_k = y.goal[i][k];
+      const Vec2 w = goal_direction(k);
+      terms.u += w.x() * y_k;
+      terms.depth += w.y() * y_k;
+      terms.least -= y_k * (p.goal.slack[i] + w.dot(Vec2(p.goal_u, p.goal_depth)));
+      share -= y_k * (p.goal.slope[i] + w.dot(Vec2(p.arc_u, p.arc_depth)));
     }
   }
   terms.least -= std::abs(share);
@@ -195,10 +185,8 @@ RunMultipliers scaled(const RunMultipliers& y, double factor) {
     scale(piece.border);
     for (Pair& end : piece.end) scale(end);
   }
-  for (Pair& pair : result.goal_u) scale(pair);
-  for (Pair& pair : result.goal_depth) scale(pair);
-  for (auto& corners : result.goal_corner) {
-    for (double& value : corners) value *= factor;
+  for (auto& directions : result.goal) {
+    for (double& value : directions) value *= factor;
   }
   scale(result.goal_z);
   return result;

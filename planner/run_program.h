@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <numbers>
 
 #include "planner/run_bound.h"
 
@@ -17,21 +18,23 @@ struct PieceMultipliers {
   Pairs end{};
 };
 
+/// Directions (u, depth) in which a member of the goal is no farther from the line than
+/// the slack.
+inline constexpr int kGoalDirections = 8;
+inline Vec2 goal_direction(int i) {
+  constexpr double h = 0.5 * std::numbers::sqrt2;
+  constexpr std::array<double, kGoalDirections> kCosine = {1.0,  h,  0.0, -h,
+                                                           -1.0, -h, 0.0, h};
+  return {kCosine[i], kCosine[(i + 6) % kGoalDirections]};
+}
+
 /// All multipliers; the last piece is the rest of the way, into the goal's box.
 struct RunMultipliers {
   std::array<PieceMultipliers, kRunPieces + 1> piece;
-  /// Of the goal's slacks, on both sides of its arc and at its corners; and of z.
-  std::array<Pair, 2> goal_u{}, goal_depth{};
-  std::array<std::array<double, 4>, 2> goal_corner{};
+  /// Of both slacks of the goal, in all directions; and of z.
+  std::array<std::array<double, kGoalDirections>, 2> goal{};
   Pair goal_z{};
 };
-
-/// Directions (u, depth) half-way between the axes: a member of the goal is no farther
-/// from the line in any direction than the slack.
-inline Vec2 corner_of_goal(int corner) {
-  const double half = std::sqrt(0.5);
-  return {corner % 2 == 0 ? -half : half, corner < 2 ? -half : half};
-}
 
 /// Numbers of the program: u and z = c theta counted from 0 at the start.
 struct RunProgram {

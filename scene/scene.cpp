@@ -294,10 +294,12 @@ Vec2 middle_of(const std::vector<Vec2>& face, const Vec2& p_OF) {
     return depth_inside(face, p) - kPerDistance * (p - p_OF).norm();
   };
   Vec2 best = low;
-  for (int i = 0; i < kGrid * kGrid; ++i) {
-    const Vec2 share((i % kGrid + 0.5) / kGrid, (i / kGrid + 0.5) / kGrid);
-    const Vec2 p = low + share.cwiseProduct(high - low);
-    if (worth(p) > worth(best)) best = p;
+  for (int j = 0; j < kGrid; ++j) {
+    for (int i = 0; i < kGrid; ++i) {
+      const Vec2 share((i + 0.5) / kGrid, (j + 0.5) / kGrid);
+      const Vec2 p = low + share.cwiseProduct(high - low);
+      if (worth(p) > worth(best)) best = p;
+    }
   }
   return best;
 }

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "mechanics/planar_instant.h"
+#include "mechanics/pad_law.h"
 #include "primitives/space_cone.h"
 
 namespace prehensile::apps {
@@ -105,7 +105,7 @@ ConeCheck check_cone(const ConeQuestion& question, const ConeMember& nominal,
     } else {
       ++check.not_unique;
     }
-    if (const PlanarInstant exact = solve_planar(held, drive); usable(exact.status)) {
+    if (const PlanarInstant exact = solve_by_pad_law(question.model, held, drive); usable(exact.status)) {
       ++check.exact_asked;
       check.exact_agrees += follows(exact, drive, c) == inside;
     }

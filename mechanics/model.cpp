@@ -147,10 +147,13 @@ void explain(const Scene& scene, Model& model) {
     say("separate fingers", "equal friction: points that coincide are merged");
   }
   const auto* point = std::get_if<PointPad>(&scene.gripper.pad);
-  if (point && point->spin_radius) {
+  if (model.has_soft_points()) {
+    say("points of the pads in the pad plane",
+        "the pads are soft points: the ellipsoid is their law");
+  } else if (point && point->spin_radius) {
     say("the soft point's own law in pushes and plans",
-        "in the pad plane it is stood for by the round patch with the same largest "
-        "friction moment; instants know it exactly");
+        "on a round side it is stood for, in the pad plane, by a round patch; instants "
+        "know it exactly");
   }
   if (!scene.goal) say("goal", "the scene states none; it serves queries only");
   for (const PushContact& contact : model.contacts) {

@@ -91,6 +91,13 @@ struct Model {
   double half_thickness = 0.0;  ///< [m] the pads touch the object at z = -/+ this
   LimitSurface surface() const { return {F, c}; }
 
+  /// Pads that are soft points on flat faces: their friction in the pad plane is the
+  /// ellipsoid `surface()`, wherever they are. Of all other pads it is a stand-in.
+  bool has_soft_points() const {
+    const auto* point = std::get_if<PointPad>(&scene.gripper.pad);
+    return point && point->spin_radius && !cross_section;
+  }
+
   /// Rolling; absent unless the object is round and lies between the jaws.
   std::optional<CrossSectionModel> cross_section;
 

@@ -1,6 +1,8 @@
 /// Friction of the points of a pad under a twist. Internal to the mechanics layer.
 #pragma once
 
+#include <cmath>
+
 #include "scene/frames.h"
 
 namespace prehensile {
@@ -28,6 +30,12 @@ PadDrag drag_of_points(int count, const Column& x, const Column& y, const Column
     drag.moment += cross(r, f);
   }
   return drag;
+}
+
+/// The same of the ellipsoid with torque radius c, over its F.
+inline PadDrag drag_of_ellipsoid(double c, const Vec2& velocity, double omega) noexcept {
+  const double speed = std::sqrt(velocity.squaredNorm() + c * c * omega * omega);
+  return {velocity / speed, c * c * omega / speed};
 }
 
 }  // namespace prehensile

@@ -39,7 +39,9 @@ PadEnvelope::PadEnvelope(const Model& model, const Margin& margin)
 PadEnvelope::Table PadEnvelope::tabulate(const Model& model, const Row& grid,
                                          double stretch) {
   const ContactPoints& points = model.region.whole();
-  const int angles = model.region.is_isotropic() ? kAnglesOfDisc : kAngles;
+  const int angles = model.has_soft_points()       ? 1
+                     : model.region.is_isotropic() ? kAnglesOfDisc
+                                                   : kAngles;
   Table table;
   for (int i = 0; i < kKappas; ++i) {
     const double omega = grid[i] / model.c;
@@ -48,8 +50,10 @@ PadEnvelope::Table PadEnvelope::tabulate(const Model& model, const Row& grid,
     table.across[i] = 0.0;
     for (int k = 0; k < angles; ++k) {
       const Vec2 e = unit_vector(k, angles);
-      const PadDrag drag = drag_of_points(points.count, points.x, points.y, points.weight,
-                                          stretch, e, omega);
+      const PadDrag drag = model.has_soft_points()
+                               ? drag_of_ellipsoid(stretch * model.c, e, omega)
+                               : drag_of_points(points.count, points.x, points.y,
+                                                points.weight, stretch, e, omega);
       const double moment = drag.moment / model.c;
       const double along = drag.force.dot(e);
       table.along_low[i] = std::min(table.along_low[i], along);

@@ -14,16 +14,13 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kEllipsoidMoment = 1e-9;  // tolerances at a point contact, over F c
 constexpr double kPadMoment = 1e-3;
 
-/// The ellipsoid's drag over F, in O, for a twist (velocity, omega) of any scale, with
-/// torque radius c.
-PadDrag ellipsoid_drag(double c, const Vec2& velocity, double omega) {
-  const double speed = std::sqrt(velocity.squaredNorm() + c * c * omega * omega);
-  return {velocity / speed, c * c * omega / speed};
-}
-
-/// The same of the real pad, its points moved away from the finger axis by `stretch`.
+/// Drag of the real pads over F, in O, for a twist of any scale, the points moved away
+/// from the finger axis by `stretch`.
 PadDrag pad_drag(const Model& model, const PlanarGrasp& grasp, double theta,
                  const Vec2& velocity, double omega, double stretch) {
+  if (model.has_soft_points()) {
+    return drag_of_ellipsoid(stretch * model.c, velocity, omega);
+  }
   const PadDrag drag = drag_of_points(grasp.count, grasp.x, grasp.y, grasp.bound, stretch,
                                       rotated(theta, velocity), omega);
   return {rotated(-theta, drag.force) / model.F, drag.moment / model.F};
@@ -185,7 +182,7 @@ StickContact stick_contact(const Model& model, const PushContact& contact, doubl
 StickTest stick_test(const StickContact& contact, double F, const Vec2& p_OF,
                      const Vec2& e, double v, double omega) noexcept {
   const Vec2 velocity = v * e;
-  const PadDrag drag = ellipsoid_drag(contact.c, velocity, omega);
+  const PadDrag drag = drag_of_ellipsoid(contact.c, velocity, omega);
   StickTest test = reported(contact, p_OF, drag, F, kEllipsoidMoment);
   test.slack = std::min(test.slack, advance(contact, contact.a, contact.b, p_OF, velocity,
                                             omega, Margin::none()));
@@ -197,8 +194,8 @@ double robust_slack(const StickContact& contact, const Vec2& p_OF, const Vec2& v
   if (velocity.isZero(0.0) && omega == 0.0) return kNan;
   const StickContact weak = weakened(contact, margin);
   const auto slack_at = [&](double c) {
-    return slack_of_drag(weak, {p_OF, p_OF}, ellipsoid_drag(c, velocity, omega), margin,
-                         {margin.tilt, margin.tilt});
+    return slack_of_drag(weak, {p_OF, p_OF}, drag_of_ellipsoid(c, velocity, omega),
+                         margin, {margin.tilt, margin.tilt});
   };
   const double c_lo = (1.0 - margin.torque_radius) * contact.c;
   const double c_hi = (1.0 + margin.torque_radius) * contact.c;
@@ -206,7 +203,7 @@ double robust_slack(const StickContact& contact, const Vec2& p_OF, const Vec2& v
   if (contact.is_point) {
     Margin tilt = Margin::none();  // what concerns the friction cone only
     tilt.tilt = margin.tilt;
-    const PadDrag nominal = ellipsoid_drag(contact.c, velocity, omega);
+    const PadDrag nominal = drag_of_ellipsoid(contact.c, velocity, omega);
     const Effort effort = effort_of(contact, p_OF, nominal, 1.0);
     const Vec2 point = centre_of_pressure(contact, effort);
     return std::min({slack, point_slack(contact, effort, kEllipsoidMoment),

@@ -36,8 +36,8 @@ struct LowerBound {
 /// sequences of contacts and the places where they switch (word_bound.h). Over round pads
 /// it is a bound for plans that stick with their rings (ring_pads.h), as every plan has
 /// to. Trivial where the goal leaves a coordinate of the place free, where the pads are
-/// not whole discs wherever they are, and where pushes need the mechanics in space.
-/// Deterministic.
+/// neither soft points nor whole discs wherever they are, and where pushes need the
+/// mechanics in space. Deterministic.
 LowerBound lower_bound(const Model& model, const Grasp& start, const Goal& goal,
                        double cost, std::int64_t nodes = kBoundNodes);
 

@@ -51,6 +51,10 @@ bool surely_falls(const PlanarGrasp& grasp) {
 
 bool pads_hold_gravity(const Model& model, const PlanarPose& X_HO, const Vec2& g_O,
                        Work& work) noexcept {
+  if (model.has_soft_points()) {
+    return holding_slack(model, finger_in_object(X_HO), g_O, Margin::none()) >
+           kFirmlyHeld;
+  }
   if (!can_roll(model.scene.object) && model.region.is_whole(X_HO)) {
     const double slack =
         holding_slack(model, finger_in_object(X_HO), g_O, Margin::none());

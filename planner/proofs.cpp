@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "mechanics/certificate.h"
+#include "mechanics/pad_law.h"
 #include "planner/planner.h"
 #include "planner/refuse.h"
 
@@ -86,16 +86,14 @@ bool verify_goal_off_object(const Model& model, std::string* why) {
 double falling_power(const Model& model, const PlanarPose& X_HO, const Vec2& g_O,
                      const PlanarTwist& twist, double shift, double turn) {
   const PlanarGrasp grasp = grasp_at(model, X_HO, g_O);
-  double friction = 0.0;
   double reach = 0.0;
   for (int j = 0; j < grasp.count; ++j) {
-    const Vec2 p{grasp.x[j], grasp.y[j]};
-    friction += grasp.bound[j] * point_velocity(twist, p).norm();
-    reach = std::max(reach, p.norm());
+    reach = std::max(reach, std::hypot(grasp.x[j], grasp.y[j]));
   }
   const double weight = model.mass * g_O.norm();
   const double uncertain = weight * shift + model.F * reach * turn;
-  return grasp.w_g.dot(twist) - friction - std::abs(twist[2]) * uncertain;
+  return grasp.w_g.dot(twist) - friction_power(model, grasp, twist) -
+         std::abs(twist[2]) * uncertain;
 }
 
 /// Whether a contact may roll the object with some grip: a line under a long side that
@@ -135,7 +133,7 @@ bool verify_goal_falls(const Model& model, std::string* why) {
   const PlanarPose X_HO{*goal.x, *goal.y, *goal.theta};
   for (const PushContact& contact : model.contacts) {
     PlanarTwist twist = PlanarTwist::Zero();
-    gravity_slack(grasp_at(model, X_HO, contact.g_O), &twist);
+    gravity_slack_by_pad_law(model, grasp_at(model, X_HO, contact.g_O), &twist);
     const double turn = angle_tolerance(goal);
     const double shift = place_tolerance(goal) + turn * translation(X_HO).norm();
     if (falling_power(model, X_HO, contact.g_O, twist, shift, turn) <= 0.0) {

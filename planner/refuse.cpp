@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "mechanics/certificate.h"
+#include "mechanics/pad_law.h"
 #include "planner/planner.h"
 
 namespace prehensile {
@@ -41,7 +41,7 @@ Proof falling_proof(const Model& model, Proof::Kind kind, const PlanarPose& X_HO
   Proof proof = make_proof(kind);
   const PlanarGrasp grasp = grasp_at(model, X_HO, g_O);
   if (grasp.count > 0) {
-    gravity_slack(grasp, &proof.twist);
+    gravity_slack_by_pad_law(model, grasp, &proof.twist);
   } else if (!grasp.w_g.isZero()) {
     proof.twist << grasp.w_g.head<2>().normalized(), 0.0;
   }

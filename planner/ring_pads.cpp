@@ -35,7 +35,7 @@ double mean_distance(double r, double d) {
 
 bool has_ring_pads(const Model& model) {
   return model.region.is_isotropic() && model.region.is_fixed_in_hand() &&
-         model.F > 0.0 && model.c > 0.0;
+         !model.has_soft_points() && model.F > 0.0 && model.c > 0.0;
 }
 
 RingFriction ring_friction(const ContactPoints& points, double c, double angle) {

@@ -15,6 +15,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Cones wider than this have no useful edges.
 constexpr double kWidestCone = 1.4;  // [rad] from the normal
 
+/// A little friction where there is none: the edges of a cone without width are parallel.
+constexpr double kNarrowestCone = 1e-6;
+
 /// One edge of the friction cone of a contact, with G = w.m g / F of it and of the other
 /// edge, and the cone widened by `widening` [rad].
 struct Edge {
@@ -192,7 +195,7 @@ RunLaw run_law(const Model& model, const PushContact& contact, const PadSection&
   RunLaw law;
   law.n = contact.n;
   law.t = contact.t;
-  law.mu = std::tan(std::atan(contact.mu) + widening);
+  law.mu = std::max(kNarrowestCone, std::tan(std::atan(contact.mu) + widening));
   law.jacobian = 2.0 * law.mu;
   law.w = {law.mu * law.n + law.t, law.mu * law.n - law.t};
   const Vec2 gamma = model.mass / model.F * contact.g_O;
@@ -209,6 +212,15 @@ RunLaw run_law(const Model& model, const PushContact& contact, const PadSection&
   return law;
 }
 
+/// Of soft points, whose friction is the ellipsoid: at every place of a pusher on the
+/// face.
+RunLaw soft_point_law(const Model& model, const PushContact& contact) {
+  StickContact stick = stick_contact(model, contact, 0.0);
+  stick.a = contact.a;
+  stick.b = contact.b;
+  return ellipsoid_law(stick, Margin::none());
+}
+
 /// Greatest distance of a place of the object from another.
 double size_of(const std::vector<Vec2>& outline) {
   double size = 0.0;
@@ -220,10 +232,38 @@ double size_of(const std::vector<Vec2>& outline) {
 
 }  // namespace
 
+RunLaw ellipsoid_law(const StickContact& stick, const Margin& margin) {
+  RunLaw law;
+  law.n = stick.n;
+  law.t = stick.t;
+  law.mu = std::max(kNarrowestCone, stick.mu * (1.0 - margin.friction));
+  law.jacobian = 2.0 * law.mu;
+  for (int k = 0; k < 2; ++k) {
+    const double side = k == 0 ? 1.0 : -1.0;
+    law.w[k] = law.mu * law.n + side * law.t;
+    law.back[k] = -law.w[k].dot(stick.gamma);
+    EndLaw end;
+    end.place = k == 0 ? stick.b : stick.a;
+    end.place -= side * margin.place * stick.t;
+    end.per_travel = -side * cross(stick.p_OCom - end.place, stick.gamma);
+    for (auto& set : law.end) set[k] = end;
+  }
+  return law;
+}
+
 RunLaws run_laws(const Model& model) {
   RunLaws laws;
   for (const PushContact& contact : model.contacts) {
     if (model.needs_space(contact)) return laws;
+  }
+  laws.reach = size_of(model.outline);
+  if (model.has_soft_points()) {
+    if (!(model.F > 0.0 && model.c > 0.0)) return laws;
+    laws.C.fill(model.c * model.c);
+    for (const PushContact& contact : model.contacts) {
+      laws.contacts.push_back(soft_point_law(model, contact));
+    }
+    return laws;
   }
   const PadSection section = pad_section(model);
   if (section.cells.empty()) return laws;
@@ -234,7 +274,6 @@ RunLaws run_laws(const Model& model) {
   const double widening = std::atan(deviation);
   laws.C = {section.slow_ratio * model.c * model.c,
             section.fast_ratio * model.c * model.c};
-  laws.reach = size_of(model.outline);
   std::vector<RunLaw> contacts;
   contacts.reserve(model.contacts.size());
   for (const PushContact& contact : model.contacts) {

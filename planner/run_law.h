@@ -24,6 +24,7 @@
 #include <array>
 #include <vector>
 
+#include "mechanics/sticking.h"
 #include "planner/pad_section.h"
 
 namespace prehensile {
@@ -52,6 +53,10 @@ struct RunLaws {
   std::vector<RunLaw> contacts;  ///< as in Model::contacts
   bool empty() const { return contacts.empty(); }
 };
+
+/// The law over the ellipsoid, for which it is exact: that of single instants, for all
+/// members of the margin's friction and places.
+RunLaw ellipsoid_law(const StickContact& stick, const Margin& margin);
 
 /// Empty where the pads do not admit such a law, or pushes need the mechanics in space.
 RunLaws run_laws(const Model& model);

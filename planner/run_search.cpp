@@ -31,26 +31,6 @@ constexpr std::int64_t kProgram = 2000;  // work of one convex program, in stick
 
 static_assert(kRunPieces <= Chain::kMaxLegs);
 
-/// The laws of single instants over the ellipsoid, for which they are exact.
-RunLaw instant_law(const StickContact& stick, const Margin& margin) {
-  RunLaw law;
-  law.n = stick.n;
-  law.t = stick.t;
-  law.mu = stick.mu * std::max(0.0, 1.0 - margin.friction);
-  law.jacobian = 2.0 * law.mu;
-  for (int k = 0; k < 2; ++k) {
-    const double side = k == 0 ? 1.0 : -1.0;
-    law.w[k] = law.mu * law.n + side * law.t;
-    law.back[k] = -law.w[k].dot(stick.gamma);
-    EndLaw end;
-    end.place = k == 0 ? stick.b : stick.a;
-    end.place -= side * margin.place * stick.t;
-    end.per_travel = -side * cross(stick.p_OCom - end.place, stick.gamma);
-    for (auto& set : law.end) set[k] = end;
-  }
-  return law;
-}
-
 class RunSearch {
  public:
   RunSearch(const SearchModel& search, const FlatState& start, double to_beat, Work& work)
@@ -60,7 +40,7 @@ class RunSearch {
     const double c = search.model->c;
     laws_.C.fill(c * c);
     for (const SearchContact& contact : search.contacts) {
-      laws_.contacts.push_back(instant_law(contact.stick, search.margin));
+      laws_.contacts.push_back(ellipsoid_law(contact.stick, search.margin));
     }
   }
 

@@ -173,7 +173,7 @@ SearchModel prepare_search(const Model& model, const Margin& margin) {
   search.exact_everywhere =
       model.region.is_isotropic() && model.region.is_fixed_in_hand();
   if (!(model.F > 0.0 && model.c > 0.0)) return search;
-  if (search.exact_everywhere && margin.is_none()) {
+  if (has_ring_pads(model) && margin.is_none()) {
     search.rings = std::make_shared<const RingTable>(model);
   }
   add_contacts(model, margin, search.contacts);
@@ -253,7 +253,7 @@ double move_slack(const SearchModel& search, const Move& move, int points,
     const double share = static_cast<double>(i) / (points - 1);
     least = std::min(least, pad_test(search, move, place, share, margin).slack);
   }
-  if (!search.exact_everywhere || !(least >= -kStickTolerance)) return least;
+  if (!has_ring_pads(*search.model) || !(least >= -kStickTolerance)) return least;
   const Motion motion(move.from, move.to);
   const PushContact& contact =
       search.model->contacts[search.contacts[move.contact].contact];

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "mechanics/certificate.h"
-#include "mechanics/contact_mode.h"
+#include "mechanics/pad_law.h"
 #include "primitives/force_search.h"
 #include "primitives/linear_push.h"
 #include "primitives/space_grip.h"
@@ -44,7 +43,7 @@ double least_to_hold(const Model& model, const PlanarPose& X_HO, const Vec2& g_O
   const auto held = [&](double friction) {
     PlanarGrasp scaled = grasp;
     for (int j = 0; j < grasp.count; ++j) scaled.bound[j] *= friction / F;
-    return gravity_slack(scaled) > 0.0;
+    return gravity_slack_by_pad_law(model, scaled) > 0.0;
   };
   const double weight = grasp.w_g.head<2>().norm();
   if (weight == 0.0) return 0.0;
@@ -153,9 +152,9 @@ GripSample grip_sample(const Model& model, const Grasp& start, const LinearPush&
   const PlanarDrive drive = drive_at(contact, push.place, X_HO, V_HP);
   PlanarGrasp grasp = grasp_at(model, X_HO, contact.g_O);
   const ContactModeOfPush flush{ContactModeOfPush::Load::kBoth, 0};
-  const MotionInMode with = solve_planar_in_mode(grasp, drive, flush);
+  const MotionInMode with = solve_in_mode_by_pad_law(model, grasp, drive, flush);
   grasp.w_g.setZero();
-  const MotionInMode without = solve_planar_in_mode(grasp, drive, flush);
+  const MotionInMode without = solve_in_mode_by_pad_law(model, grasp, drive, flush);
   if (!with.exists || !without.exists) return sample;
 
   // Every load is a part that grows with the friction of the pads, and one that does not.

@@ -21,7 +21,9 @@ Transition follow(const Model& model, const Grasp& start, const LinearPush& push
     transition.in_space = true;
     return transition;
   }
-  return PushRun<PushInstant>(model, start, push, guard, options, trace).run();
+  TransitionOptions in_plane = options;
+  if (model.has_soft_points()) in_plane.friction_model = FrictionModel::kEllipsoid;
+  return PushRun<PushInstant>(model, start, push, guard, in_plane, trace).run();
 }
 
 }  // namespace prehensile

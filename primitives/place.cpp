@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mechanics/certificate.h"
-#include "mechanics/planar_instant.h"
+#include "mechanics/pad_law.h"
 #include "optimisation/nonlinear_program.h"
 #include "primitives/place_slack.h"
 #include "primitives/place_wrench.h"
@@ -152,10 +151,10 @@ class Search {
     const PlanarGrasp grasp = grasp_at(model, wanted_.X_HO, pusher.g_O);
     const PlanarDrive drive =
         drive_at(pusher, out.push.place, wanted_.X_HO, wanted_.twist_HO());
-    const PlanarInstant instant = solve_planar(grasp, drive);
+    const PlanarInstant instant = solve_by_pad_law(model, grasp, drive);
     out.status = instant.status;
     out.push_force = instant.push_force;
-    out.certificate = certify(grasp, drive, instant).worst;
+    out.certificate = certify_by_pad_law(model, grasp, drive, instant);
     const double c = std::max(model.c, 1e-9);
     const PlanarTwist difference = instant.V_HO - drive.V_HP;
     out.twist_error = std::hypot(difference[0], difference[1], c * difference[2]) /

@@ -57,6 +57,10 @@ NeededWrench needed_wrench(const Model& model, const WantedMotion& wanted,
   NeededWrench out;
   const PlanarGrasp grasp = grasp_at(model, wanted.X_HO, contact.g_O);
   const PlanarTwist V = wanted.twist_HO();
+  if (model.has_soft_points()) {
+    out.w = -model.surface().friction(V) - grasp.w_g;
+    return out;
+  }
   const double still = 1e-12 * (V.head<2>().norm() + model.c * std::abs(V[2]));
   for (int j = 0; j < grasp.count; ++j) {
     const Vec2 p(grasp.x[j], grasp.y[j]);

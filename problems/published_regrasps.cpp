@@ -156,6 +156,13 @@ Scene published_tee(int index) {
   return among_walls(tee(), "published T", index, kPairs.at(index));
 }
 
+Scene with_soft_points(Scene scene) {
+  if (const auto* disc = std::get_if<DiscPad>(&scene.gripper.pad)) {
+    scene.gripper.pad = PointPad{.spin_radius = 2.0 / 3.0 * disc->radius};
+  }
+  return scene;
+}
+
 Scene random_among_walls(bool is_square, RegraspRange range, bool gravity,
                          std::uint64_t seed, std::uint64_t index) {
   RandomStream random(RandomStream(seed).bits() ^ (1000003 * index));

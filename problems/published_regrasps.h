@@ -21,6 +21,10 @@ inline constexpr int kPublishedRegrasps = 50;
 Scene published_square(int index);
 Scene published_tee(int index);
 
+/// The scene with soft points for pads instead of its discs, of their torque radius: the
+/// ellipsoid as limit surface, as in that comparison. Other pads stay.
+Scene with_soft_points(Scene scene);
+
 /// Where problems beyond the 50 pairs are drawn from.
 enum class RegraspRange {
   kPublished,  ///< the ranges of the comparison: goals left of the starts, +-0.2 rad

@@ -60,7 +60,7 @@ ContactRegion::ContactRegion(const Scene& scene, int points)
   const bool is_point = std::holds_alternative<PointPad>(scene.gripper.pad);
   round_side_ = can_roll(scene.object);
   clips_ = scene.overhang == Overhang::kClip;
-  fixed_in_hand_ = !round_side_ && !clips_;
+  fixed_in_hand_ = !round_side_ && (!clips_ || is_point);
   isotropic_ = !round_side_ && std::holds_alternative<DiscPad>(pad_);
   pad_reach_ = pad_reach(scene.gripper.pad);
   if (round_side_) {
@@ -74,6 +74,8 @@ ContactRegion::ContactRegion(const Scene& scene, int points)
     return;
   }
   torque_radius_ = mean_distance_to_axis(whole_);
+  const auto* point = std::get_if<PointPad>(&scene.gripper.pad);
+  if (point && point->spin_radius) torque_radius_ = *point->spin_radius;
   if (clips_ && !is_point) {
     pieces_ = triangulate(outline_);
     cells_ = pad_cells(pad_, scene.gripper.pressure, kCellsPerSide);

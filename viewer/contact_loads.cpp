@@ -4,8 +4,7 @@
 #include <cmath>
 #include <memory>
 
-#include "mechanics/certificate.h"
-#include "mechanics/planar_instant.h"
+#include "mechanics/pad_law.h"
 #include "mechanics/spatial_certificate.h"
 #include "mechanics/spatial_model.h"
 #include "primitives/prism_attitudes.h"
@@ -19,6 +18,31 @@ constexpr double kFlush = 1e-9;     // [rad]
 constexpr double kLooseTolerance = 1e-7;
 
 Vec3 raised(const Vec2& v, double z) { return {v.x(), v.y(), z}; }
+
+/// Soft points: each exerts its share of what balances pusher and gravity.
+void add_soft_points(const Model& model, const PlanarGrasp& grasp,
+                     const PlanarDrive& drive, const PlanarInstant& instant,
+                     ContactLoads& loads) {
+  PlanarWrench friction = -grasp.w_g;
+  for (int i = 0; i < instant.pusher_count; ++i) {
+    const PusherPoint& point = instant.pusher[i];
+    friction -= wrench_of(drive.p_HC[i], point.normal_force * drive.n_H +
+                                             point.tangential_force * drive.t_H());
+  }
+  for (std::size_t jaw = 0; jaw < 2; ++jaw) {
+    const double side = jaw == 0 ? 1.0 : -1.0;
+    const double mu = model.scene.gripper.friction[jaw];
+    const double share = mu * model.jaw_force[jaw] / model.F;
+    loads.pad[jaw].push_back(
+        {.p = {0.0, 0.0, -side * model.half_thickness},
+         .n = side * Vec3::UnitZ(),
+         .force = raised(share * friction.head<2>(), side * model.jaw_force[jaw]),
+         .spin = side * share * friction[2],
+         .slip = raised(instant.V_HO.head<2>(), 0.0),
+         .mu = mu,
+         .mode = instant.V_HO.isZero() ? ContactMode::kStick : ContactMode::kSlip});
+  }
+}
 
 /// Pads whose loads are those at rest: friction of both fingers together is shared out in
 /// proportion to what each can bear.
@@ -62,15 +86,19 @@ ContactLoads solved_in_pad_plane(const Model& model, const PlanarGrasp& grasp,
                                  const PlanarDrive& drive) {
   ContactLoads loads;
   if (grasp.count == 0) return loads;
-  PlanarInstant instant = solve_planar(grasp, drive);
+  PlanarInstant instant = solve_by_pad_law(model, grasp, drive);
   if (instant.status == InstantStatus::kOutOfIterations) {
-    instant = solve_planar(grasp, drive, {.tolerance = kLooseTolerance});
+    instant = solve_by_pad_law(model, grasp, drive, {.tolerance = kLooseTolerance});
   }
   loads.status = instant.status;
   if (!has_motion(instant.status)) return loads;
   loads.push_force = instant.push_force;
-  loads.certificate = certify(grasp, drive, instant).worst;
-  add_planar_pads(model, grasp, instant, loads);
+  loads.certificate = certify_by_pad_law(model, grasp, drive, instant);
+  if (model.has_soft_points()) {
+    add_soft_points(model, grasp, drive, instant, loads);
+  } else {
+    add_planar_pads(model, grasp, instant, loads);
+  }
   add_planar_pusher(drive, instant, loads);
   return loads;
 }
@@ -96,6 +124,7 @@ ContactLoads solved_in_space(const SpatialProblem& problem) {
           {.p = problem.p_HC(i),
            .n = patch.n,
            .force = point.normal_force * patch.n + f[0] * patch.t + f[1] * patch.o(),
+           .spin = point.spin_moment,
            .slip = point.slip_rate[0] * patch.t + point.slip_rate[1] * patch.o(),
            .mu = patch.mu,
            .mode = point.mode});

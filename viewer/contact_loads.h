@@ -16,6 +16,7 @@ struct PointLoad {
   Vec3 p = Vec3::Zero();      ///< [m]
   Vec3 n = Vec3::UnitX();     ///< unit, into the object
   Vec3 force = Vec3::Zero();  ///< [N] on the object
+  double spin = 0.0;          ///< [N m] moment on the object about n, of a soft point
   Vec3 slip = Vec3::Zero();   ///< [m] velocity of the object against pad or pusher, per
                               ///< unit of the share of the push
   double mu = 0.0;

@@ -128,6 +128,7 @@ Scene random_bound_scene(int i, Random& random) {
     pusher.normal_angle += random.chance(0.3) ? random.in(-0.1, 0.1) : 0.0;
   }
   scene.gripper.grip_force = random.log_in(15.0, 80.0);
+  if (random.chance(0.3)) return with_soft_points(scene);
   return scene;
 }
 

@@ -78,6 +78,23 @@ void solve_constructed(RegraspFamily family, const std::string& what, int first,
   testing::print_times("search, constructed regrasps, " + what, seconds);
 }
 
+/// Soft points are checked by their own law, the ellipsoid, and know no edge of the face.
+TEST(Planner, SolvesThePublishedRegraspsWithSoftPoints) {
+  for (int i = 0; i < kPublishedRegrasps; ++i) {
+    for (Scene scene : {published_square(i), published_tee(i)}) {
+      scene = with_soft_points(scene);
+      const Model model = prepare(scene);
+      EXPECT_TRUE(solves(model)) << scene.name;
+      const PlanOptions nominal{.margin = Margin::none()};
+      EXPECT_TRUE(solves(model, nominal)) << scene.name;
+      const Plan plan = plan_regrasp(model, nominal);
+      scene.overhang = Overhang::kClip;
+      const Plan clipped = plan_regrasp(prepare(scene), nominal);
+      EXPECT_EQ(clipped.cost, plan.cost) << scene.name;
+    }
+  }
+}
+
 TEST(Planner, SolvesConstructedBoxes) {
   solve_constructed(RegraspFamily::kBox, "boxes", 0, 100);
 }

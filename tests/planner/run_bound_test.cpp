@@ -18,6 +18,15 @@ using testing::Random;
 
 constexpr double kPi = std::numbers::pi;
 
+/// Slack of a sticking push by pads whose friction is the same at every angle.
+double slack_of(const Model& model, const PushContact& contact, const Vec2& p_OF,
+                const Vec2& e, double travel, double turn) {
+  if (has_ring_pads(model)) return ring_slack(model, contact, p_OF, e, travel, turn);
+  return exact_stick_test(model, contact, 0.0, pose_from_finger(p_OF, 0.0), e, travel,
+                          turn, Margin::none())
+      .slack;
+}
+
 /// A run of random sticking moves by one contact.
 struct Walk {
   Vec2 end = Vec2::Zero();
@@ -36,7 +45,7 @@ Walk random_run(const Model& model, int contact, const Vec2& start, Random& rand
     const double turn = length * (spin + random.in(-1.5, 1.5)) / model.c;
     const Vec2 to = walk.end - length * e;
     if (!segment_inside(model.pad_face, walk.end, to) ||
-        ring_slack(model, pushed, walk.end, e, length, turn) < 0.0)
+        slack_of(model, pushed, walk.end, e, length, turn) < 0.0)
       continue;
     walk.end = to;
     walk.turn += turn;
@@ -66,6 +75,7 @@ void attack_with_runs(int scenes, std::uint64_t seed) {
     if (random.chance(0.5)) scene.g_W.setZero();
     scene.gripper.grip_force = random.log_in(12.0, 80.0);
     for (auto& pusher : scene.pushers) pusher.friction = random.in(0.2, 1.1);
+    if (random.chance(0.4)) scene = with_soft_points(scene);
     const Model model = prepare(scene);
     const RunLaws laws = run_laws(model);
     for (int k = 0; k < 20; ++k) {

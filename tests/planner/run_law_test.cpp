@@ -122,6 +122,7 @@ Scene random_law_scene(Random& random) {
   scene.g_W =
       weightless ? Vec2(0.0, 0.0) : Vec2(rotated(random.in(-kPi, kPi), {9.81, 0}));
   for (auto& pusher : scene.pushers) pusher.friction = random.in(0.0, 1.2);
+  if (random.chance(0.2)) return with_soft_points(scene);
   return random.chance(0.3) ? with_square_pads(scene) : scene;
 }
 

@@ -26,15 +26,27 @@ inline Model model_of(const std::string& file) {
   return prepare(read_scene(kSourceTree / "problems" / file).scene);
 }
 
-inline FilmCase pushed(const std::string& file, const Push& push,
-                       const viewer::FilmOptions& options = {}) {
-  FilmCase one{file, model_of(file), {}, {}};
+inline FilmCase pushed(const std::string& file, Model model, const Push& push,
+                       const viewer::FilmOptions& options) {
+  FilmCase one{file, std::move(model), {}, {}};
   one.plan.start = one.plan.goal = one.model.scene.start;
   one.plan.margin = Margin::none();
   one.plan.pushes.push_back(
       {.push = push, .start = one.plan.start, .end = one.plan.start});
   one.film = viewer::film(one.model, one.plan, options);
   return one;
+}
+
+inline FilmCase pushed(const std::string& file, const Push& push,
+                       const viewer::FilmOptions& options = {}) {
+  return pushed(file, model_of(file), push, options);
+}
+
+/// The same between soft points.
+inline FilmCase pushed_soft(const std::string& file, const Push& push) {
+  Scene scene = model_of(file).scene;
+  scene.gripper.pad = PointPad{.spin_radius = 0.006};
+  return pushed(file + ", soft points", prepare(scene), push, {});
 }
 
 inline FilmCase planned(const std::string& file) {
@@ -67,6 +79,10 @@ inline const std::vector<FilmCase>& film_cases() {
     cases.push_back(planned("confined/tee_90.yaml"));
     if (collisions_are_built()) {
       cases.push_back(planned("confined/post_in_the_way.yaml"));
+    }
+    for (const double aside : {0.0, 0.9}) {
+      cases.push_back(pushed_soft("paper/slide.yaml",
+                                  LinearPush{.e = rotated(aside, x), .travel = 0.008}));
     }
     return cases;
   }();

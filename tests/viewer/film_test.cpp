@@ -186,7 +186,7 @@ TEST(Film, WhatIsDrawnIsInBalance) {
     double most = 0.0;
     const auto add = [&](const PointLoad& load) {
       force += load.force;
-      moment += load.p.cross(load.force);
+      moment += load.p.cross(load.force) + load.spin * load.n;
       most = std::max(most, load.force.norm());
     };
     std::for_each(frame.loads.pusher.begin(), frame.loads.pusher.end(), add);

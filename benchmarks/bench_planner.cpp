@@ -38,6 +38,8 @@ struct Options {
   int time_ms = 1000;
   std::string plans = "robust";  // or nominal: without a margin
   std::string theta = "angle";   // or number: the nearest winding is the only goal
+  std::string pads = "disc";     // or soft: points, with the torque radius of the discs
+  int tolerance_um = 0;          // of goals; 0: that of the set
   const char* file = nullptr;
 };
 
@@ -123,6 +125,14 @@ std::vector<Problem> problems_of(const Options& options) {
   std::vector<Problem> problems = problems_of_set(options);
   if (options.theta == "number") {
     for (Problem& problem : problems) keep_nearest_winding(problem.scene);
+  }
+  if (options.pads == "soft") {
+    for (Problem& problem : problems) problem.scene = with_soft_points(problem.scene);
+  }
+  if (options.tolerance_um > 0) {
+    for (Problem& problem : problems) {
+      problem.scene.goal->position_tolerance = 1e-6 * options.tolerance_um;
+    }
   }
   return problems;
 }
@@ -239,6 +249,8 @@ bool read_options(int count, char** arguments, Options& options) {
                        {"--planner", &options.planner},
                        {"--plans", &options.plans},
                        {"--theta", &options.theta},
+                       {"--pads", &options.pads},
+                       {"--tolerance-um", &options.tolerance_um},
                        {"--problems", &options.problems},
                        {"--seeds", &options.seeds},
                        {"--time-ms", &options.time_ms}},
@@ -249,6 +261,7 @@ bool read_options(int count, char** arguments, Options& options) {
                       }) &&
          is_set(options.set) &&
          (options.plans == "robust" || options.plans == "nominal") &&
+         (options.pads == "disc" || options.pads == "soft") &&
          (options.theta == "angle" || options.theta == "number");
 }
 
@@ -270,8 +283,9 @@ int run(int count, char** arguments) {
     std::fputs(
         "usage: bench_planner [--quick] [--set published|ranges|wide|constructed]\n"
         "                     [--planner NAME] [--plans robust|nominal]\n"
-        "                     [--theta angle|number] [--problems N] [--seeds N]\n"
-        "                     [--time-ms N] [-o FILE]\n",
+        "                     [--theta angle|number] [--pads disc|soft]\n"
+        "                     [--tolerance-um N] [--problems N] [--seeds N] [--time-ms "
+        "N] [-o FILE]\n",
         stderr);
     return 2;
   }

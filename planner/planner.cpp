@@ -203,6 +203,30 @@ Plan search_with_and_without(const Model& model, const PlanOptions& options, Wor
   return without;
 }
 
+/// With `improve`: what is found without it, and what a search goes on to find, whichever
+/// is cheaper.
+Plan search_on(const Model& model, const PlanOptions& options, Work& work) {
+  if (!options.improve || options.planner != PlanOptions{}.planner) {
+    return search_with_and_without(model, options, work);
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  PlanOptions first = options;
+  first.improve = false;
+  Plan plan = search_with_and_without(model, first, work);
+  if (!plan.usable()) return plan;
+  PlanOptions rest = options;
+  if (options.time_limit > 0.0) {
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
+    rest.time_limit -= spent.count();
+    if (rest.time_limit <= 0.0) return plan;
+  }
+  Plan better = search_with_and_without(model, rest, work);
+  if (!better.usable() || better.promise != plan.promise) return plan;
+  account(model, plan);
+  account(model, better);
+  return better.cost < plan.cost ? better : plan;
+}
+
 Plan decide(const Model& model, const PlanOptions& options) {
   Plan plan;
   plan.start = model.scene.start;
@@ -243,7 +267,7 @@ Plan decide(const Model& model, const PlanOptions& options) {
   Work work{.budget = options.budget};
   if (options.progress) work.meter = &meter;
   work.stop = options.stop;
-  plan = search_with_and_without(model, options, work);
+  plan = search_on(model, options, work);
   plan.stick_tests = work.stick_tests;
   plan.propagations = work.propagations;
   plan.stopped_by = work.stopped_by;

@@ -15,6 +15,7 @@ constexpr double kFirstStep = 3e-3;      // [m]
 constexpr double kInfeasible = 1e6;      // cost of way-points that no chain passes
 constexpr double kWorthwhile = 1e-4;     // relative gain below which the plan stays
 constexpr std::size_t kMostPushes = 12;  // beyond it sub-plex gains too little
+constexpr double kWorthBending = 0.02;   // relative gain for which pushes may be doubled
 
 /// The part of a plan between two rolls: moves only.
 struct Stretch {
@@ -124,13 +125,35 @@ std::vector<PlannedPush> pushes_of(const SearchModel& search, const Stretch& str
   return part.pushes;
 }
 
-/// Pushes of one stretch, shorter if possible.
-std::vector<PlannedPush> polished(const SearchModel& search, const Limits& limits,
-                                  Work& work, std::vector<PlannedPush> pushes) {
+/// The stretch with each push in two halves, which the same contact makes.
+Stretch halved(const Stretch& stretch) {
+  Stretch halves = stretch;
+  halves.contacts.clear();
+  halves.way_points.clear();
+  const auto keep = [&halves](const Vec2& p_OF) {
+    halves.way_points.push_back(p_OF.x());
+    halves.way_points.push_back(p_OF.y());
+  };
+  Vec2 from = stretch.start.p_OF;
+  for (std::size_t k = 0; k < stretch.contacts.size(); ++k) {
+    const bool last = k + 1 == stretch.contacts.size();
+    const Vec2 to = last ? stretch.end.p_OF
+                         : Vec2(stretch.way_points[2 * k], stretch.way_points[2 * k + 1]);
+    halves.contacts.insert(halves.contacts.end(), 2, stretch.contacts[k]);
+    keep(0.5 * (from + to));
+    if (!last) keep(to);
+    from = to;
+  }
+  return halves;
+}
+
+/// Leaves out pushes and moves way-points until neither brings anything.
+void tighten(const SearchModel& search, const Limits& limits, Work& work,
+             std::vector<PlannedPush>& pushes) {
   Chain chain;
   while (pushes.size() >= 2 && pushes.size() <= kMostPushes && !limits.reached()) {
     Stretch stretch;
-    if (!read_stretch(search, pushes, stretch)) break;
+    if (!read_stretch(search, pushes, stretch)) return;
     if (drop_a_push({search}, work, stretch, chain)) {
       pushes = pushes_of(search, stretch, chain);
       continue;
@@ -138,8 +161,34 @@ std::vector<PlannedPush> polished(const SearchModel& search, const Limits& limit
     if (shorten({search}, limits, work, stretch, chain)) {
       pushes = pushes_of(search, stretch, chain);
     }
-    break;
+    return;
   }
+}
+
+/// Lets every push bend in its middle, where the plan gets shorter by that.
+void bend(const SearchModel& search, const Limits& limits, Work& work,
+          std::vector<PlannedPush>& pushes) {
+  Chain chain;
+  while (2 * pushes.size() <= kMostPushes && !limits.reached()) {
+    Stretch stretch;
+    if (!read_stretch(search, pushes, stretch)) return;
+    if (!chain_of({search}, stretch, stretch.way_points, work, chain)) return;
+    const double before = chain.cost;
+    const Stretch halves = halved(stretch);
+    if (!shorten({search}, limits, work, halves, chain) ||
+        chain.cost > before * (1.0 - kWorthBending)) {
+      return;
+    }
+    pushes = pushes_of(search, halves, chain);
+    tighten(search, limits, work, pushes);
+  }
+}
+
+/// Pushes of one stretch, shorter if possible.
+std::vector<PlannedPush> polished(const SearchModel& search, const Limits& limits,
+                                  Work& work, std::vector<PlannedPush> pushes) {
+  tighten(search, limits, work, pushes);
+  if (pushes.size() >= 2) bend(search, limits, work, pushes);
   return pushes;
 }
 

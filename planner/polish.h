@@ -7,8 +7,10 @@ namespace prehensile {
 
 /// Minimises J over the way-points of the plan (NLopt, sub-plex), the rotations being
 /// eliminated exactly at each trial (chain.h); the sequence of contacts stays, a push
-/// that has become superfluous is dropped. The plan stays as it is where that brings
-/// nothing, or leaves the margin with the real pad, or NLopt is not built. Deterministic.
+/// that has become superfluous is dropped, and pushes are cut in two, by the same
+/// contact, where that shortens the plan by 2 %. The plan stays as it is where that
+/// brings nothing, or leaves the margin with the real pad, or NLopt is not built.
+/// Deterministic.
 void polish(const SearchModel& search, const Limits& limits, Work& work, Plan& plan);
 
 }  // namespace prehensile

@@ -248,6 +248,24 @@ TEST(Planner, PolishNeverLengthens) {
   }
 }
 
+/// Shortest runs bend: two placements, and more than two pushes.
+TEST(Planner, PolishBendsPushes) {
+  int bent = 0;
+  for (const std::uint64_t i : {83, 90}) {
+    Scene scene =
+        with_soft_points(random_among_walls(false, RegraspRange::kWide, false, 1, i));
+    scene.goal->position_tolerance = 1e-6;
+    const Model model = prepare(scene);
+    const Plan plan = plan_regrasp(model, {.margin = Margin::none()});
+    const Plan rough = plan_regrasp(model, {.margin = Margin::none(), .polish = false});
+    ASSERT_TRUE(plan.usable() && rough.usable());
+    EXPECT_TRUE(replay(model, plan).agrees);
+    EXPECT_LE(plan.cost, rough.cost);
+    bent += static_cast<int>(plan.pushes.size()) > plan.placements;
+  }
+  EXPECT_GT(bent, 0);
+}
+
 TEST(Planner, PlansSurviveTheirMarginBox) {
   Random random(6);
   for (int i = 0; i < 20; ++i) {

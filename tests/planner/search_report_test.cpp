@@ -100,6 +100,21 @@ TEST(Improve, IsNeverWorse) {
   EXPECT_GT(better, 0);
 }
 
+/// A search that goes on begins anew, and may end at plans that polish less well.
+TEST(Improve, IsNeverWorseThanThePolishedPlan) {
+  Scene scene =
+      with_soft_points(random_among_walls(false, RegraspRange::kWide, false, 1, 22));
+  scene.goal->position_tolerance = 1e-6;
+  scene.goal->theta_is = ThetaMeaning::kNumber;
+  const Model model = prepare(scene);
+  PlanOptions options{.budget = 1'000'000, .margin = Margin::none()};
+  const Plan first = plan_regrasp(model, options);
+  options.improve = true;
+  const Plan improved = plan_regrasp(model, options);
+  ASSERT_TRUE(first.usable() && improved.usable());
+  EXPECT_LE(improved.cost, first.cost + 1e-12);
+}
+
 /// One wall of friction 0.5 for a goal that also needs a push aside.
 Scene one_wall() {
   Scene scene = published_tee(20);

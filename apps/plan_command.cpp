@@ -30,6 +30,7 @@ struct Options {
   std::string output = "plan.json";
   std::string view;
   double margin = 1.0;
+  bool weightless = false;
   double progress_seconds = 1.0;
   bool nominal = false, robust = false, no_polish = false, no_advice = false;
 };
@@ -44,6 +45,7 @@ void set_margin(const Options& options, const Model& model, PlanOptions& plan) {
   } else {
     plan.margin = margin_of(model, usual_box()).scaled(options.margin);
   }
+  plan.margin->weightless = options.weightless;
 }
 
 /// Plans; where that fails, or only a nominal plan exists, says what would help.
@@ -144,6 +146,8 @@ Command add_plan(CLI::App& app) {
                        "only a nominal plan is found");
   margin->excludes(nominal)->excludes(robust);
   nominal->excludes(robust);
+  command.add_flag("--no-help-of-gravity", options->weightless,
+                   "plan pushes that stick without gravity as well");
   command.add_flag("--improve", options->plan.improve,
                    "search on for cheaper plans after the first one, until the budget, "
                    "the time or Ctrl-C ends it");

@@ -68,13 +68,15 @@ std::string promise_text(const Plan& plan) {
   const Margin& margin = plan.margin;
   if (plan.promise == Promise::kNominalOnly) return "NOMINAL ONLY: no margin\n";
   if (margin.is_none()) return "nominal: no margin\n";
-  return text(
+  std::string promise = text(
       "planned for (%s): friction -%.0f %%, weight over grip +-%.0f %%, torque radius "
       "+-%.0f %%, pusher place +-%.1f mm and tilt +-%.2f deg, centre of mass +-%.1f mm, "
       "start in the hand +-%.1f mm\n",
       std::string(name(plan.promise)).c_str(), 100.0 * margin.friction,
       100.0 * margin.force, 100.0 * margin.torque_radius, to_mm(margin.place),
       to_deg(margin.tilt), to_mm(margin.centre_of_mass), to_mm(margin.grasp));
+  if (margin.weightless) promise.insert(promise.size() - 1, "; no push needs gravity");
+  return promise;
 }
 
 std::string explanation_text(const Explanation& explanation) {

@@ -36,7 +36,8 @@ struct Options {
   int problems = 0;     // of each kind; 0: all
   int seeds = 3;
   int time_ms = 1000;
-  std::string plans = "robust";  // or nominal: without a margin
+  std::string plans = "robust";  // or nominal: without a margin; or weightless: that
+                                 // and without gravity as well
   std::string theta = "angle";   // or number: the nearest winding is the only goal
   std::string pads = "disc";     // or soft: points, with the torque radius of the discs
   int tolerance_um = 0;          // of goals; 0: that of the set
@@ -162,15 +163,21 @@ Run run_planner(const Problem& problem, const std::string& planner, std::uint64_
   Run run{.kind = problem.kind, .problem = scene.name, .planner = planner, .seed = seed};
   const int batches = is_own(planner) ? 3 : 1;
   wanted.margin =
-      options.plans == "nominal" ? Margin::none() : margin_of(model, usual_box());
+      options.plans == "robust" ? margin_of(model, usual_box()) : Margin::none();
+  wanted.margin->weightless = options.plans == "weightless";
+  wanted.nominal_if_needed = options.plans != "weightless";
   const SearchModel search = prepare_search(model, *wanted.margin);
   run.search_seconds = 1e-6 * time_us([&] { search_only(search, wanted); }, batches);
   run.plan = plan_regrasp(model, wanted);
   run.replays = run.plan.usable() && replay(model, run.plan).agrees;
   if (run.plan.usable()) {
     run.bound_seconds =
-        1e-6 *
-        time_us([&] { lower_bound(model, scene.start, *scene.goal, run.plan.cost); }, 1);
+        1e-6 * time_us(
+                   [&] {
+                     lower_bound(model, scene.start, *scene.goal, run.plan.cost,
+                                 {.weightless = wanted.margin->weightless});
+                   },
+                   1);
   }
   return run;
 }
@@ -260,7 +267,8 @@ bool read_options(int count, char** arguments, Options& options) {
                         options.time_ms = 50;
                       }) &&
          is_set(options.set) &&
-         (options.plans == "robust" || options.plans == "nominal") &&
+         (options.plans == "robust" || options.plans == "nominal" ||
+          options.plans == "weightless") &&
          (options.pads == "disc" || options.pads == "soft") &&
          (options.theta == "angle" || options.theta == "number");
 }
@@ -282,7 +290,7 @@ int run(int count, char** arguments) {
   if (!readable || planners.empty()) {
     std::fputs(
         "usage: bench_planner [--quick] [--set published|ranges|wide|constructed]\n"
-        "                     [--planner NAME] [--plans robust|nominal]\n"
+        "                     [--planner NAME] [--plans robust|nominal|weightless]\n"
         "                     [--theta angle|number] [--pads disc|soft]\n"
         "                     [--tolerance-um N] [--problems N] [--seeds N] [--time-ms "
         "N] [-o FILE]\n",

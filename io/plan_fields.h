@@ -43,6 +43,8 @@ inline const auto kPromiseWords = named(std::array{
     Promise::kNominal, Promise::kNominalOnly, Promise::kMargin, Promise::kScene});
 inline constexpr std::array<Word<bool>, 2> kBoundWords = {
     {{true, "distances"}, {false, "contacts"}}};
+inline constexpr std::array<Word<bool>, 2> kGravityWords = {
+    {{false, "may help"}, {true, "must not help"}}};
 inline const auto kProofWords = named(
     std::array{Proof::Kind::kGoalOffObject, Proof::Kind::kStartFalls,
                Proof::Kind::kGoalFalls, Proof::Kind::kNoPusher, Proof::Kind::kNoRoll,
@@ -158,6 +160,9 @@ void visit_margin(Fields& fields, Margin& margin) {
               "Of the finger axis in the object when the first push begins. Absent: 0.");
   if_positive(fields, "tilt", margin.tilt, {0.0, 10.0, "rad"},
               "Of the motion and of gravity against the face. Absent: 0.");
+  fields.word_if_not(false, "gravity", margin.weightless, kGravityWords,
+                     "Whether pushes may need the help of gravity, or have to stick "
+                     "without it as well. Absent: may help.");
 }
 
 template <typename Fields>

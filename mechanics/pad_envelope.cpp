@@ -15,8 +15,9 @@ constexpr double kBetweenAngles = 3e-3;  // of the wrench, in F and F c
 constexpr int kAnglesOfDisc = 12;        // its quadrature is nearly the same at all
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-double worst(double factor, double relative) {
-  return factor > 0.0 ? (1.0 + relative) * factor : (1.0 - relative) * factor;
+/// The most that a term of the weight may come to.
+double worst(double term, const Margin& margin) {
+  return term > 0.0 ? margin.most_weight() * term : margin.least_weight() * term;
 }
 
 Vec2 unit_vector(int k, int angles) {
@@ -89,7 +90,7 @@ KappaSet PadEnvelope::kappas(const StickContact& contact, const Vec2& from,
         margin_.tilt * (std::abs(edge.dot(o)) +
                         (1.0 + margin_.force) * std::abs(cross(edge, contact.gamma)));
     rows[count++] = {edge.dot(e), std::abs(edge.dot(o)), 0.0,
-                     worst(edge.dot(contact.gamma), margin_.force) + turned};
+                     worst(edge.dot(contact.gamma), margin_) + turned};
   };
   add_edge(mu * contact.n + contact.t);
   add_edge(mu * contact.n - contact.t);
@@ -102,7 +103,7 @@ KappaSet PadEnvelope::kappas(const StickContact& contact, const Vec2& from,
     const double lever = std::abs((contact.p_OCom - end).dot(contact.gamma));
     const double right = shift + side * cross(contact.p_OCom - end, contact.gamma);
     rows[count++] = {side * cross(from - end, e) / c_, across / c_, side,
-                     (worst(right, margin.force) + margin.tilt * (across + lever)) / c_};
+                     (worst(right, margin) + margin.tilt * (across + lever)) / c_};
   };
   add_end(a, -1.0);
   add_end(b, 1.0);

@@ -133,7 +133,7 @@ double slack_of_drag(const StickContact& weak, const FingerPath& path,
                      const PadDrag& drag, const Margin& margin, const Tilts& tilts) {
   const bool straight = tilts.drag == 0.0 && tilts.gravity == 0.0 && margin.grasp == 0.0;
   double slack = kInfinity;
-  for (const double gravity : {1.0 - margin.force, 1.0 + margin.force}) {
+  for (const double gravity : {margin.least_weight(), margin.most_weight()}) {
     if (!straight) {
       slack = std::min(slack, turned_slack(weak, path, drag, gravity, margin, tilts));
       continue;

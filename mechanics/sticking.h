@@ -41,16 +41,21 @@ struct Margin {
   double tilt = 0.0;  ///< [rad] by which the motion and gravity, each on its own, may be
                       ///< turned against the face: a pusher or an object that is not
                       ///< quite at its angle in the world
+  bool weightless = false;  ///< pushes have to stick without gravity as well, so that
+                            ///< none needs its help
 
   Margin scaled(double factor) const {
-    return {friction * factor, force * factor,          torque_radius * factor,
-            place * factor,    centre_of_mass * factor, grasp * factor,
-            tilt * factor};
+    return {
+        friction * factor,       force * factor, torque_radius * factor, place * factor,
+        centre_of_mass * factor, grasp * factor, tilt * factor,          weightless};
   }
   static Margin none() { return {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}; }
+  /// Least and greatest factor of the weight.
+  double least_weight() const { return weightless ? 0.0 : 1.0 - force; }
+  double most_weight() const { return 1.0 + force; }
   bool is_none() const {
-    return friction == 0.0 && force == 0.0 && torque_radius == 0.0 && place == 0.0 &&
-           centre_of_mass == 0.0 && grasp == 0.0 && tilt == 0.0;
+    return !weightless && friction == 0.0 && force == 0.0 && torque_radius == 0.0 &&
+           place == 0.0 && centre_of_mass == 0.0 && grasp == 0.0 && tilt == 0.0;
   }
 };
 

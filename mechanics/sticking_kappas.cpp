@@ -130,6 +130,7 @@ class Intersection {
 /// Least and greatest factor of a parameter with a relative uncertainty.
 struct Factors {
   explicit Factors(double relative) : lo(1.0 - relative), hi(1.0 + relative) {}
+  Factors(double least, double most) : lo(least), hi(most) {}
   double lo, hi;
 
   /// The greatest value of factor x B: the worst right side of A >= B.
@@ -140,7 +141,7 @@ struct Factors {
 /// two ends decide; the least friction is the worst because the normal force is positive.
 void keep_cone(const StickContact& contact, const Vec2& e, const Margin& margin,
                Intersection& kept) {
-  const Factors force(margin.force);
+  const Factors force(margin.least_weight(), margin.most_weight());
   const Factors radius(margin.torque_radius);
   const double mu = contact.mu * std::max(0.0, 1.0 - margin.friction);
   const double e_n = e.dot(contact.n);
@@ -202,7 +203,7 @@ Gap receding(const StickContact& contact, const Vec2& p_OF, const Vec2& e, doubl
 /// centre of mass.
 void keep_ends(const StickContact& contact, const Vec2& p_OF, const Vec2& e,
                const Margin& margin, Intersection& kept) {
-  const Factors force(margin.force);
+  const Factors force(margin.least_weight(), margin.most_weight());
   const Factors radius(margin.torque_radius);
   const Vec2 a = contact.a + margin.place * contact.t;
   const Vec2 b = contact.b - margin.place * contact.t;

@@ -208,12 +208,12 @@ constexpr double kProofRounding = 1e-7;
 /// Bounds from the words of contacts, for one question.
 class Prover {
  public:
-  Prover(const Model& model, const Grasp& start, const Goal& goal)
+  Prover(const Model& model, const Grasp& start, const Goal& goal, bool weightless)
       : roll_(roll_cost(model, start, goal)) {
     const GoalSet set(model, start, goal);
     question_.straight = set.distance();
     if (!set.fixes_place() || question_.straight <= 0.0) return;
-    laws_ = run_laws(model);
+    laws_ = run_laws(model, weightless);
     if (laws_.empty()) return;
     scene_ = word_scene(model, laws_);
     question_.p_OF = finger_in_object(start.X_HO);
@@ -261,10 +261,11 @@ double guide_bound(const Model& model, const Grasp& start, const Goal& goal) {
 }
 
 LowerBound lower_bound(const Model& model, const Grasp& start, const Goal& goal,
-                       double cost, std::int64_t nodes) {
+                       double cost, const BoundOptions& options) {
+  const std::int64_t nodes = options.nodes;
   LowerBound bound{.value = trivial_bound(model, start, goal)};
   if (!(bound.value < cost / kGapAsked)) return bound;
-  const Prover prover(model, start, goal);
+  const Prover prover(model, start, goal, options.weightless);
   for (const double target : {cost / kGapAsked, cost}) {
     if (!(bound.value < target) || bound.nodes >= nodes) break;
     std::int64_t left = nodes - bound.nodes;
@@ -282,10 +283,11 @@ LowerBound lower_bound(const Model& model, const Grasp& start, const Goal& goal,
 }
 
 bool bound_holds(const Model& model, const Grasp& start, const Goal& goal, double claimed,
-                 std::int64_t nodes) {
+                 const BoundOptions& options) {
+  std::int64_t nodes = options.nodes;
   const double accepted = claimed * (1.0 - kAcceptance);
   return trivial_bound(model, start, goal) >= accepted ||
-         Prover(model, start, goal).prove(claimed, nodes) >= accepted;
+         Prover(model, start, goal, options.weightless).prove(claimed, nodes) >= accepted;
 }
 
 }  // namespace prehensile

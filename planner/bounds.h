@@ -23,6 +23,11 @@ double guide_bound(const Model& model, const Grasp& start, const Goal& goal);
 /// Work of the bounds below: boxes of switch points looked at, about a microsecond each.
 inline constexpr std::int64_t kBoundNodes = 6000;
 
+struct BoundOptions {
+  std::int64_t nodes = kBoundNodes;
+  bool weightless = false;  ///< of plans that stick without gravity as well
+};
+
 struct LowerBound {
   double value = kNan;
   bool is_trivial = true;  ///< nothing about pushers was proved: value = trivial_bound
@@ -39,11 +44,11 @@ struct LowerBound {
 /// neither soft points nor whole discs wherever they are, and where pushes need the
 /// mechanics in space. Deterministic.
 LowerBound lower_bound(const Model& model, const Grasp& start, const Goal& goal,
-                       double cost, std::int64_t nodes = kBoundNodes);
+                       double cost, const BoundOptions& options = {});
 
 /// Whether J >= `claimed` can be proved with this work: the answer that a reader of a
 /// plan wants.
 bool bound_holds(const Model& model, const Grasp& start, const Goal& goal, double claimed,
-                 std::int64_t nodes = 4 * kBoundNodes);
+                 const BoundOptions& options = {.nodes = 4 * kBoundNodes});
 
 }  // namespace prehensile

@@ -283,7 +283,8 @@ void set_bound(const Model& model, Plan& plan) {
     plan.lower_bound = trivial_bound(model, start, goal);
     return;
   }
-  const LowerBound bound = lower_bound(model, start, goal, plan.cost);
+  const LowerBound bound =
+      lower_bound(model, start, goal, plan.cost, {.weightless = plan.margin.weightless});
   plan.lower_bound = bound.value;
   plan.bound_is_trivial = bound.is_trivial;
   plan.bound_nodes = bound.nodes;

@@ -140,8 +140,11 @@ bool bound_is_right(const Model& model, const Plan& plan) {
   }
   const Goal goal = goal_within_limits(model.scene);
   const Grasp& start = model.scene.start;
-  return bound_holds(model, start, goal, plan.lower_bound) ||
-         lower_bound(model, start, goal, plan.cost).value >= plan.lower_bound;
+  const bool weightless = plan.margin.weightless;
+  return bound_holds(model, start, goal, plan.lower_bound,
+                     {.nodes = 4 * kBoundNodes, .weightless = weightless}) ||
+         lower_bound(model, start, goal, plan.cost, {.weightless = weightless}).value >=
+             plan.lower_bound;
 }
 
 bool poses_connect(const Plan& plan, const ReplayOptions& options) {

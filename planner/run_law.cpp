@@ -214,11 +214,27 @@ RunLaw run_law(const Model& model, const PushContact& contact, const PadSection&
 
 /// Of soft points, whose friction is the ellipsoid: at every place of a pusher on the
 /// face.
-RunLaw soft_point_law(const Model& model, const PushContact& contact) {
+RunLaw soft_point_law(const Model& model, const PushContact& contact, bool weightless) {
   StickContact stick = stick_contact(model, contact, 0.0);
   stick.a = contact.a;
   stick.b = contact.b;
-  return ellipsoid_law(stick, Margin::none());
+  Margin margin = Margin::none();
+  margin.weightless = weightless;
+  return ellipsoid_law(stick, margin);
+}
+
+/// Of two laws that a run obeys, for each inequality the one that leaves less.
+RunLaw stricter(const RunLaw& one, const RunLaw& other) {
+  RunLaw law = one;
+  for (int k = 0; k < 2; ++k) {
+    law.back[k] = std::min(one.back[k], other.back[k]);
+    for (int set = 0; set < RunLaw::kSets; ++set) {
+      if (other.end[set][k].per_travel < one.end[set][k].per_travel) {
+        law.end[set][k] = other.end[set][k];
+      }
+    }
+  }
+  return law;
 }
 
 /// Greatest distance of a place of the object from another.
@@ -241,17 +257,19 @@ RunLaw ellipsoid_law(const StickContact& stick, const Margin& margin) {
   for (int k = 0; k < 2; ++k) {
     const double side = k == 0 ? 1.0 : -1.0;
     law.w[k] = law.mu * law.n + side * law.t;
-    law.back[k] = -law.w[k].dot(stick.gamma);
+    const double pressed = -law.w[k].dot(stick.gamma);
+    law.back[k] = margin.weightless ? std::min(0.0, pressed) : pressed;
     EndLaw end;
     end.place = k == 0 ? stick.b : stick.a;
     end.place -= side * margin.place * stick.t;
     end.per_travel = -side * cross(stick.p_OCom - end.place, stick.gamma);
+    if (margin.weightless) end.per_travel = std::min(0.0, end.per_travel);
     for (auto& set : law.end) set[k] = end;
   }
   return law;
 }
 
-RunLaws run_laws(const Model& model) {
+RunLaws run_laws(const Model& model, bool weightless) {
   RunLaws laws;
   for (const PushContact& contact : model.contacts) {
     if (model.needs_space(contact)) return laws;
@@ -261,7 +279,7 @@ RunLaws run_laws(const Model& model) {
     if (!(model.F > 0.0 && model.c > 0.0)) return laws;
     laws.C.fill(model.c * model.c);
     for (const PushContact& contact : model.contacts) {
-      laws.contacts.push_back(soft_point_law(model, contact));
+      laws.contacts.push_back(soft_point_law(model, contact, weightless));
     }
     return laws;
   }
@@ -279,6 +297,11 @@ RunLaws run_laws(const Model& model) {
   for (const PushContact& contact : model.contacts) {
     if (std::atan(contact.mu) + widening > kWidestCone) return laws;
     contacts.push_back(run_law(model, contact, section, widening));
+    if (!weightless) continue;
+    PushContact floating = contact;
+    floating.g_O.setZero();
+    contacts.back() =
+        stricter(contacts.back(), run_law(model, floating, section, widening));
   }
   laws.contacts = std::move(contacts);
   return laws;

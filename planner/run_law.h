@@ -55,10 +55,11 @@ struct RunLaws {
 };
 
 /// The law over the ellipsoid, for which it is exact: that of single instants, for all
-/// members of the margin's friction and places.
+/// members of the margin's friction and places, and without gravity if it says so.
 RunLaw ellipsoid_law(const StickContact& stick, const Margin& margin);
 
 /// Empty where the pads do not admit such a law, or pushes need the mechanics in space.
-RunLaws run_laws(const Model& model);
+/// `weightless`: of runs that stick without gravity as well (Margin::weightless).
+RunLaws run_laws(const Model& model, bool weightless = false);
 
 }  // namespace prehensile

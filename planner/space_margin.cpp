@@ -50,6 +50,14 @@ std::string space_margin_fault(const Model& model, const PlannedPush& planned,
   const std::array<Unknown, 3> ends = {Unknown::kGripForce, Unknown::kTorqueRadius,
                                        Unknown::kPlace};
   const int combinations = contact.is_point ? 2 : 16;
+  if (margin.weightless) {
+    UncertainPush member = vary(model.scene, planned.start, push, box, BoxPoint{});
+    member.scene.g_W.setZero();
+    member.scene.g_Wz = 0.0;
+    const std::string fault =
+        fault_of_member(member, model.options.points_per_pad, options);
+    if (!fault.empty()) return fault + ", without gravity";
+  }
   if (box.active().empty()) return {};
   for (int i = 0; i < combinations; ++i) {
     BoxPoint point{};

@@ -48,6 +48,9 @@ TEST(PlanOptions, MarginsAreTheUsualOneNoneOrTheScenes) {
   EXPECT_EQ(checked.exit_code, 0) << checked.out;
   EXPECT_EQ(planned(folder, kScene + " --robust").exit_code, 2);
   EXPECT_EQ(planned(folder, kScene + " --robust --nominal").exit_code, 2);
+  ASSERT_EQ(planned(folder, kScene + " --no-help-of-gravity").exit_code, 0);
+  EXPECT_EQ(plan_of(folder).at("margin").at("gravity"), "must not help");
+  EXPECT_EQ(run_program("check " + folder.path("plan.json").string()).exit_code, 0);
   EXPECT_EQ(planned(folder, kScene + " --margin 2 --nominal").exit_code, 2);
 }
 

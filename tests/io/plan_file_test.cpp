@@ -51,6 +51,7 @@ void expect_same(const Plan& a, const Plan& b) {
   EXPECT_EQ(a.margin.friction, b.margin.friction);
   EXPECT_EQ(a.margin.grasp, b.margin.grasp);
   EXPECT_EQ(a.margin.tilt, b.margin.tilt);
+  EXPECT_EQ(a.margin.weightless, b.margin.weightless);
   EXPECT_EQ(a.promise, b.promise);
   ASSERT_EQ(a.explanation.has_value(), b.explanation.has_value());
   if (a.explanation) {
@@ -90,6 +91,7 @@ TEST(PlanFile, RandomPlansReturnUnchanged) {
     Plan plan = random_plan(random, model);
     if (random.chance(0.5)) plan.margin.grasp = random.in(0.0, 1e-2);
     if (random.chance(0.5)) plan.margin.tilt = random.in(0.0, 0.1);
+    plan.margin.weightless = random.chance(0.5);
     plan.promise = static_cast<Promise>(random.below(4));
     plan.bound_is_trivial = random.chance(0.5);
     if (random.chance(0.3)) {

@@ -117,6 +117,39 @@ TEST(StickingKappas, AreOneIntervalWithoutGravity) {
   }
 }
 
+/// What sticks at the whole weight and without any sticks at each share of it, because
+/// the rows are affine in the weight.
+TEST(StickingKappas, WithoutTheHelpOfGravityAreThoseOfBothEndsOfTheWeight) {
+  Random random(12);
+  Margin margin = Margin::none();
+  margin.weightless = true;
+  int inside = 0, helped = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    StickContact contact = random_contact(random);
+    if (contact.is_point || contact.a == contact.b) continue;
+    const Vec2 p_OF = random.in_disc(0.05);
+    const Vec2 e = random.direction();
+    const KappaSet kappas = robust_kappas(contact, p_OF, e, margin);
+    const double kappa = random.in(-4.0, 4.0);
+    StickContact floating = contact;
+    floating.gamma.setZero();
+    const auto slack = [&](const StickContact& at) {
+      return stick_test(at, 1.0, p_OF, e, 1.0, kappa / contact.c).slack;
+    };
+    const double least = std::min(slack(contact), slack(floating));
+    if (std::abs(least) < 1e-6) continue;
+    EXPECT_TRUE(least > 0.0 || !kappas.contains(kappa)) << i;
+    const bool is_sure =
+        std::abs(cross(contact.p_OCom - contact.a, contact.gamma)) < 2.0 * contact.c &&
+        std::abs(cross(contact.p_OCom - contact.b, contact.gamma)) < 2.0 * contact.c;
+    EXPECT_TRUE(!is_sure || kappas.contains(kappa) == (least > 0.0)) << i;
+    inside += least > 0.0;
+    helped += least < 0.0 && slack(contact) > 0.0;
+  }
+  EXPECT_GT(inside, 1000);
+  EXPECT_GT(helped, 100);
+}
+
 TEST(StickingKappas, CanHaveFourIntervals) {
   // Heavy object on a short floor, hand moving up and aside: both tilting moments and the
   // friction edge each cut a gap.

@@ -140,7 +140,10 @@ void attack_with_walks(int count, std::uint64_t seed) {
   for (int i = 0; i < count; ++i) {
     const Scene scene = random_bound_scene(i, random);
     const Model model = prepare(scene);
-    const SearchModel search = prepare_search(model, Margin::none());
+    Margin margin = Margin::none();
+    margin.weightless = random.chance(0.3);
+    const BoundOptions bounded{.nodes = 800, .weightless = margin.weightless};
+    const SearchModel search = prepare_search(model, margin);
     if (search.contacts.empty()) continue;
     const Walk walk =
         random_walk(search, flat_state(scene.start), 1 + random.below(4), random);
@@ -155,9 +158,10 @@ void attack_with_walks(int count, std::uint64_t seed) {
     }
     if (random.chance(0.2)) goal.theta.reset();
     EXPECT_LE(trivial_bound(model, scene.start, goal), walk.cost + 1e-9) << i;
-    const LowerBound bound = lower_bound(model, scene.start, goal, 1.2 * walk.cost, 800);
+    const LowerBound bound =
+        lower_bound(model, scene.start, goal, 1.2 * walk.cost, bounded);
     EXPECT_LE(bound.value, walk.cost + 1e-9) << i;
-    EXPECT_FALSE(bound_holds(model, scene.start, goal, 1.03 * walk.cost, 800)) << i;
+    EXPECT_FALSE(bound_holds(model, scene.start, goal, 1.03 * walk.cost, bounded)) << i;
     strong += !bound.is_trivial;
     sharp += bound.value > walk.cost / 1.1;
   }
@@ -180,12 +184,15 @@ void attack_with_plans(int count, int from) {
     const Model model = prepare(scene);
     PlanOptions options;
     options.margin = Margin::none();
+    options.margin->weightless = i % 3 == 0;
     const Plan plan = plan_regrasp(model, options);
     if (plan.status != PlanStatus::kReachedGoal) continue;
+    if (plan.promise == Promise::kNominalOnly) continue;
     ++plans;
     EXPECT_LE(plan.lower_bound, plan.cost * (1.0 + 1e-9)) << i;
     EXPECT_GE(plan.lower_bound, trivial_bound(model, scene.start, *scene.goal)) << i;
-    EXPECT_FALSE(bound_holds(model, scene.start, *scene.goal, 1.03 * plan.cost, 800))
+    EXPECT_FALSE(bound_holds(model, scene.start, *scene.goal, 1.03 * plan.cost,
+                             {.nodes = 800, .weightless = plan.margin.weightless}))
         << i;
   }
   EXPECT_GT(plans, 0.9 * count);
@@ -204,7 +211,7 @@ TEST(Bounds, OfALargerGoalHoldForASmallerOne) {
     const Model model = prepare(scene);
     Goal goal = *scene.goal;
     goal.position_tolerance = 5e-3;
-    const LowerBound larger = lower_bound(model, scene.start, goal, 4.0, 2000);
+    const LowerBound larger = lower_bound(model, scene.start, goal, 4.0, {.nodes = 2000});
     goal.position_tolerance = 1e-4;
     EXPECT_TRUE(bound_holds(model, scene.start, goal, larger.value)) << i;
     proved += larger.is_trivial ? 0 : 1;
@@ -218,7 +225,8 @@ TEST(Bounds, DoNotDependOnTheFrameOfTheHand) {
   for (int i = 0; i < 30; ++i) {
     Scene scene = random_among_walls(i % 2 == 0, RegraspRange::kWide, i % 4 < 2, 8, i);
     const Model model = prepare(scene);
-    const LowerBound bound = lower_bound(model, scene.start, *scene.goal, 3.0, 1000);
+    const LowerBound bound =
+        lower_bound(model, scene.start, *scene.goal, 3.0, {.nodes = 1000});
     const double turn = random.in(-kPi, kPi);
     for (PlanarPose* X_HO : {&scene.start.X_HO}) {
       *X_HO = pose_from_finger(finger_in_object(*X_HO), X_HO->theta + turn);
@@ -229,7 +237,7 @@ TEST(Bounds, DoNotDependOnTheFrameOfTheHand) {
     scene.goal->y = turned.y;
     scene.goal->theta = turned.theta;
     const LowerBound other =
-        lower_bound(prepare(scene), scene.start, *scene.goal, 3.0, 1000);
+        lower_bound(prepare(scene), scene.start, *scene.goal, 3.0, {.nodes = 1000});
     EXPECT_NEAR(bound.value, other.value, 1e-3) << i;
   }
 }

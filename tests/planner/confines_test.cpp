@@ -125,7 +125,8 @@ TEST(Confines, BoundsOfNumbersHold) {
     const Plan plan = plan_regrasp(model, nominal());
     ASSERT_TRUE(plan.usable()) << i << plan.message;
     EXPECT_LE(plan.lower_bound, plan.cost * (1.0 + 1e-9)) << i;
-    EXPECT_FALSE(bound_holds(model, scene.start, *scene.goal, 1.03 * plan.cost, 800));
+    EXPECT_FALSE(
+        bound_holds(model, scene.start, *scene.goal, 1.03 * plan.cost, {.nodes = 800}));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/bounds.h"
+#include "planner/exact_check.h"
 #include "planner/limits.h"
 #include "planner/polish.h"
 #include "planner/push_search.h"
@@ -264,6 +265,32 @@ TEST(Planner, PolishBendsPushes) {
     bent += static_cast<int>(plan.pushes.size()) > plan.placements;
   }
   EXPECT_GT(bent, 0);
+}
+
+/// Every push of such a plan sticks in the same scene without gravity, too.
+TEST(Planner, WithoutTheHelpOfGravityPushesStickWithoutGravity) {
+  int pushes = 0, helped = 0;
+  for (int i = 0; i < 40; ++i) {
+    Scene scene = random_among_walls(i % 2 == 0, RegraspRange::kWide, true, 2, i);
+    if (i % 4 < 2) scene = with_soft_points(scene);
+    const Model model = prepare(scene);
+    PlanOptions options{.margin = Margin::none(), .nominal_if_needed = false};
+    const Plan nominal = plan_regrasp(model, options);
+    options.margin->weightless = true;
+    const Plan plan = plan_regrasp(model, options);
+    if (!plan.usable()) continue;
+    EXPECT_TRUE(replay(model, plan).agrees) << i;
+    scene.g_W.setZero();
+    const Model floating = prepare(scene);
+    const auto sticks = [&](const PlannedPush& push) {
+      return push_slack(floating, push.start, push.push, Margin::none()) >= -1e-9;
+    };
+    for (const PlannedPush& push : plan.pushes) EXPECT_TRUE(sticks(push)) << i;
+    pushes += static_cast<int>(plan.pushes.size());
+    helped += !std::all_of(nominal.pushes.begin(), nominal.pushes.end(), sticks);
+  }
+  EXPECT_GT(pushes, 40);
+  EXPECT_GT(helped, 0);
 }
 
 TEST(Planner, PlansSurviveTheirMarginBox) {

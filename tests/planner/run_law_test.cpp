@@ -130,9 +130,10 @@ struct Tally {
   int sticking = 0, edges_near = 0, ends_near = 0;
 };
 
-/// One instant that sticks with the pads themselves obeys the law.
-void check_instant(const Model& model, const RunLaws& laws, Random& random,
-                   Tally& tally) {
+/// One instant that sticks with the pads themselves obeys the law; `weightless`: that
+/// sticks without gravity as well.
+void check_instant(const Model& model, const RunLaws& laws, bool weightless,
+                   Random& random, Tally& tally) {
   const int j = random.below(static_cast<int>(model.contacts.size()));
   const PushContact& contact = model.contacts[j];
   const RunLaw& law = laws.contacts[j];
@@ -143,13 +144,19 @@ void check_instant(const Model& model, const RunLaws& laws, Random& random,
   const double kappa = random_kappa(random);
   const Vec2 p_OF = random.in_box(0.05, 0.05);
   const PlanarPose X_HO = pose_from_finger(p_OF, random.in(-kPi, kPi));
-  const StickTest test = exact_stick_test(model, contact, 0.0, X_HO, e, 1.0,
-                                          kappa / model.c, Margin::none());
-  const bool round = has_ring_pads(model);
-  if (!((round ? ring_slack(model, contact, p_OF, e, 1.0, kappa / model.c)
-               : test.slack) >= 0.0)) {
-    return;
-  }
+  const auto sticks = [&](const PushContact& pushed) {
+    const double omega = kappa / model.c;
+    const double slack =
+        has_ring_pads(model)
+            ? ring_slack(model, pushed, p_OF, e, 1.0, omega)
+            : exact_stick_test(model, pushed, 0.0, X_HO, e, 1.0, omega, Margin::none())
+                  .slack;
+    return slack >= 0.0;
+  };
+  if (!sticks(contact)) return;
+  PushContact floating = contact;
+  floating.g_O.setZero();
+  if (weightless && !sticks(floating)) return;
   ++tally.sticking;
   const double dT = std::hypot(1.0, kappa);
   for (int k = 0; k < 2; ++k) {
@@ -181,9 +188,12 @@ void check_instants(int scenes, int instants, std::uint64_t seed) {
   for (int i = 0; i < scenes; ++i) {
     const Scene scene = random_law_scene(random);
     const Model model = prepare(scene, {.points_per_pad = random.chance(0.7) ? 16 : 64});
-    const RunLaws laws = run_laws(model);
+    const bool weightless = random.chance(0.3);
+    const RunLaws laws = run_laws(model, weightless);
     ASSERT_FALSE(laws.empty());
-    for (int k = 0; k < instants; ++k) check_instant(model, laws, random, tally);
+    for (int k = 0; k < instants; ++k) {
+      check_instant(model, laws, weightless, random, tally);
+    }
   }
   EXPECT_GT(tally.sticking, scenes * instants / 20);
   EXPECT_GT(tally.edges_near, tally.sticking / 100);

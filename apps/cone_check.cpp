@@ -105,7 +105,8 @@ ConeCheck check_cone(const ConeQuestion& question, const ConeMember& nominal,
     } else {
       ++check.not_unique;
     }
-    if (const PlanarInstant exact = solve_by_pad_law(question.model, held, drive); usable(exact.status)) {
+    if (const PlanarInstant exact = solve_by_pad_law(question.model, held, drive);
+        usable(exact.status)) {
       ++check.exact_asked;
       check.exact_agrees += follows(exact, drive, c) == inside;
     }

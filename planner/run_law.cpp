@@ -278,9 +278,13 @@ RunLaws run_laws(const Model& model, bool weightless) {
   if (model.has_soft_points()) {
     if (!(model.F > 0.0 && model.c > 0.0)) return laws;
     laws.C.fill(model.c * model.c);
+    std::vector<RunLaw> contacts;
+    contacts.reserve(model.contacts.size());
     for (const PushContact& contact : model.contacts) {
-      laws.contacts.push_back(soft_point_law(model, contact, weightless));
+      if (std::atan(contact.mu) > kWidestCone) return laws;
+      contacts.push_back(soft_point_law(model, contact, weightless));
     }
+    laws.contacts = std::move(contacts);
     return laws;
   }
   const PadSection section = pad_section(model);

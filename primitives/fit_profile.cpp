@@ -153,10 +153,15 @@ void sample_profile(const FitProblem& problem, std::span<const int> rows, const 
   const FitParameter& p = problem.parameters[static_cast<std::size_t>(parameter)];
   const FitInterval& interval = profile.interval;
   const double beyond = kBeyond * interval.half_width();
+  profile.points = {{best.at[parameter], 0.0}};
   ProfileSide side(problem, rows, best, parameter, held, profile.limit);
   side.sample(std::max(p.low, interval.low - beyond), kPoints, profile.points);
   side.sample(std::min(p.high, interval.high + beyond), kPoints, profile.points);
   sort_points(profile);
+  // A rough model lets a fit end a little above its least: rises count from there.
+  double least = 0.0;
+  for (const ProfilePoint& point : profile.points) least = std::min(least, point.rise);
+  for (ProfilePoint& point : profile.points) point.rise -= least;
 }
 
 double student_quantile(double share, int freedom) {

@@ -103,8 +103,9 @@ Profile profile(const FitProblem& problem, std::span<const int> rows, const Fit&
                 int parameter, const std::vector<bool>& held, const FitCovariance& spread,
                 const FitOptions& options = {});
 
-/// Adds points at equal distances, from the best fit to a little beyond both ends of the
-/// interval: for a picture, as the search for the ends looks there and hardly elsewhere.
+/// Replaces the points by ones at equal distances, from the best fit to a little beyond
+/// both ends of the interval, with rises over the least of them: for a picture, as the
+/// search for the ends looks there, in no order and hardly elsewhere.
 void sample_profile(const FitProblem& problem, std::span<const int> rows, const Fit& best,
                     int parameter, const std::vector<bool>& held, Profile& profile);
 

@@ -142,6 +142,54 @@ TEST(RobustFit, AProfileStopsAtTheBoundWhereTheDataSetNoLimit) {
   EXPECT_NEAR(found.interval.low, 0.95, 0.1);
 }
 
+TEST(RobustFit, SampledProfilesAreEvenConvexAndNowhereBelowZero) {
+  const FitProblem problem = decay(1.3, 0.2, 40, 0.03, 0.0, 7);
+  const std::vector<int> rows = all_rows(40);
+  const Fit best = fit(problem, rows, start_of(problem), {});
+  const FitCovariance spread = covariance(problem, rows, best, {});
+  for (int j = 0; j < 2; ++j) {
+    Profile sampled = profile(problem, rows, best, j, {}, spread);
+    const FitInterval interval = sampled.interval;
+    sample_profile(problem, rows, best, j, {}, sampled);
+    const std::vector<ProfilePoint>& points = sampled.points;
+    ASSERT_EQ(points.size(), 17u);
+    EXPECT_EQ(points[8].value, best.at[j]);
+    EXPECT_LT(points.front().value, interval.low);
+    EXPECT_GT(points.back().value, interval.high);
+    EXPECT_GT(points.front().rise, sampled.limit);
+    EXPECT_GT(points.back().rise, sampled.limit);
+    for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+      const double before = points[i].value - points[i - 1].value;
+      const double after = points[i + 1].value - points[i].value;
+      if (i != 8) {
+        EXPECT_NEAR(before, after, 1e-9) << j << " " << i;
+      }
+      const double left = (points[i].rise - points[i - 1].rise) / before;
+      const double right = (points[i + 1].rise - points[i].rise) / after;
+      EXPECT_LT(left, right) << j << " " << i;
+    }
+  }
+}
+
+TEST(RobustFit, ASampledProfileRisesFromItsLeastWhereTheFitStoppedShort) {
+  const FitProblem problem = decay(1.3, 0.2, 40, 0.03, 0.0, 7);
+  const std::vector<int> rows = all_rows(40);
+  const Fit best = fit(problem, rows, start_of(problem), {});
+  const FitCovariance spread = covariance(problem, rows, best, {});
+  Profile sampled = profile(problem, rows, best, 0, {}, spread);
+  Eigen::VectorXd aside = best.at;
+  aside[0] += 0.2 * sampled.interval.half_width();
+  const Fit stopped = fit(problem, rows, aside, {true, false});
+  sample_profile(problem, rows, stopped, 0, {}, sampled);
+  double least = 1.0, at_fit = 0.0;
+  for (const ProfilePoint& point : sampled.points) {
+    least = std::min(least, point.rise);
+    if (point.value == stopped.at[0]) at_fit = point.rise;
+  }
+  EXPECT_EQ(least, 0.0);
+  EXPECT_GT(at_fit, 0.0);
+}
+
 TEST(RobustFit, StudentQuantilesAreThoseOfTables) {
   EXPECT_NEAR(student_quantile(0.95, 3), 2.353, 0.02);
   EXPECT_NEAR(student_quantile(0.95, 10), 1.812, 1e-3);

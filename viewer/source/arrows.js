@@ -1,8 +1,9 @@
 // Arrows, friction cones and motion cones.
 import {
-  BufferGeometry, ConeGeometry, CylinderGeometry, DoubleSide, Float32BufferAttribute, Group,
-  Mesh, MeshBasicMaterial, Vector3,
+  BufferGeometry, ConeGeometry, CylinderGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, Vector3,
 } from 'three';
+
+import {geometryOf} from './shapes.js';
 
 const kUp = new Vector3(0, 1, 0);
 
@@ -36,6 +37,12 @@ export class Arrow extends Group {
     this.shaft.scale.set(width, shaft, width);
     this.head.scale.setScalar(width);
     this.head.position.set(0, shaft, 0);
+  }
+
+  /// A force where it acts, to the one scale of its film.
+  pointForce({p, force}, film) {
+    const scale = (0.8 * film.data.object.reach) / film.mostForce;
+    this.point(new Vector3(...p), new Vector3(...force).multiplyScalar(scale));
   }
 }
 
@@ -74,8 +81,7 @@ export class MotionCone extends Mesh {
       }
     }
     this.geometry.dispose();
-    this.geometry = new BufferGeometry();
-    this.geometry.setAttribute('position', new Float32BufferAttribute(positions, 3));
+    this.geometry = geometryOf(positions);
     this.position.copy(centre);
     this.visible = positions.length > 0;
   }

@@ -1,7 +1,7 @@
 // Bodies that nothing may hit, and limits of grasp and hand.
-import {BufferGeometry, Float32BufferAttribute, LineBasicMaterial, LineSegments} from 'three';
+import {LineBasicMaterial, LineSegments} from 'three';
 
-import {triangles} from './shapes.js';
+import {geometryOf, triangles} from './shapes.js';
 import {solid} from './solid.js';
 
 const kArcStep = 0.05;  // [rad]
@@ -9,9 +9,7 @@ const kOpenArc = 0.35;  // [rad] of a limit to one side
 const kPerTurn = 0.06;  // by which an arc widens per turn, so that turns can be told apart
 
 function lines(points, colour) {
-  const geometry = new BufferGeometry();
-  geometry.setAttribute('position', new Float32BufferAttribute(points, 3));
-  const drawn = new LineSegments(geometry, new LineBasicMaterial({color: colour, depthTest: false}));
+  const drawn = new LineSegments(geometryOf(points), new LineBasicMaterial({color: colour, depthTest: false}));
   drawn.renderOrder = 3;
   return drawn;
 }

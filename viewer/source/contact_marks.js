@@ -39,10 +39,7 @@ export class ContactMarks {
     if (!load || load.mode === 'open') return;
     const p = new Vector3(...load.p);
     const n = new Vector3(...load.n);
-    if (forces) {
-      const scale = (0.8 * this.reach) / film.mostForce;
-      this.arrows[i].point(p, new Vector3(...load.force).multiplyScalar(scale));
-    }
+    if (forces) this.arrows[i].pointForce(load, film);
     if (cones) this.cones[i].place(p, n, load.mu, 0.45 * this.reach);
     if (load.mode === 'stick') return;
     const slip = new Vector3(...load.slip);

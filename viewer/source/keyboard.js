@@ -1,4 +1,5 @@
 // Keys; those that a control of the page uses itself are left to it.
+import {kViewNames} from './stage.js';
 
 export const kKeys = [
   ['space', 'play or pause'],
@@ -26,9 +27,7 @@ export function listen(viewer) {
     '-': () => transport.faster(-1),
     '+': () => transport.faster(1),
     f: () => viewer.setWorld(!viewer.isWorld),
-    1: () => viewer.look('free'),
-    2: () => viewer.look('front'),
-    3: () => viewer.look('side'),
+    ...Object.fromEntries(kViewNames.map((view, i) => [i + 1, () => viewer.look(view)])),
     d: () => theme.toggle(),
     '?': () => viewer.help.toggleAttribute('open'),
   };

@@ -4,7 +4,7 @@ import {element, mm} from './elements.js';
 import {Film} from './film.js';
 import {kKeys, listen} from './keyboard.js';
 import {Moment, PushList, verdictBox} from './panel.js';
-import {Stage} from './stage.js';
+import {kViewNames, Stage} from './stage.js';
 import {Theme} from './theme.js';
 import {Transport} from './transport.js';
 
@@ -85,7 +85,7 @@ class Viewer {
     this.worldBox = element('select', {'aria-label': 'What stands still'},
       element('option', {value: 'hand'}, 'hand stands still'), element('option', {value: 'world'}, 'world stands still'));
     this.worldBox.addEventListener('change', () => this.setWorld(this.worldBox.value === 'world'));
-    const views = ['free', 'front', 'side'].map((view) =>
+    const views = kViewNames.map((view) =>
       element('button', {onclick: () => this.look(view)}, view));
     const {data} = this.films[0];
     document.getElementById('viewer').append(
@@ -150,7 +150,7 @@ function applyAddress(viewer) {
   const wanted = new URLSearchParams(location.hash.slice(1));
   if (['dark', 'light'].includes(wanted.get('theme'))) viewer.theme.set(wanted.get('theme'));
   if (wanted.get('frame') === 'world') viewer.setWorld(true);
-  if (['free', 'front', 'side'].includes(wanted.get('view'))) viewer.look(wanted.get('view'));
+  if (kViewNames.includes(wanted.get('view'))) viewer.look(wanted.get('view'));
   const times = viewer.films[0].pushTimes();
   const push = times[Number(wanted.get('push')) - 1];
   const share = Number(wanted.get('share') ?? 0.5);

@@ -1,17 +1,17 @@
 // Pressure and friction of the pads, point by point, on the outside of each jaw.
 import {
-  BufferGeometry, CircleGeometry, Color, Float32BufferAttribute, Group, InstancedMesh,
-  LineBasicMaterial, LineSegments, Matrix4, MeshBasicMaterial, Vector3,
+  BufferGeometry, CircleGeometry, Color, Group, InstancedMesh, LineBasicMaterial, LineSegments, Matrix4,
+  MeshBasicMaterial, Vector3,
 } from 'three';
 
 import {Arrow, overlay} from './arrows.js';
+import {geometryOf} from './shapes.js';
 
 const kMost = 96;  // points of a pad
 
 export class PadMarks {
   constructor(parent, film, reach, colours) {
     this.film = film;
-    this.reach = reach;
     // Mixed as the eye sees them, not as light adds up.
     this.low = new Color(colours.pressureLow).convertLinearToSRGB();
     this.high = new Color(colours.pressureHigh).convertLinearToSRGB();
@@ -51,8 +51,7 @@ export class PadMarks {
   #showResultant({arrow}, load) {
     arrow.visible = false;
     if (!load) return;
-    const scale = (0.8 * this.reach) / this.film.mostForce;
-    arrow.point(new Vector3(...load.p), new Vector3(...load.force).multiplyScalar(scale));
+    arrow.pointForce(load, this.film);
   }
 
   #showJaw({side, discs, lines, lift}, {places, forces}, z) {
@@ -77,7 +76,6 @@ export class PadMarks {
     discs.instanceMatrix.needsUpdate = true;
     if (discs.instanceColor) discs.instanceColor.needsUpdate = true;
     lines.geometry.dispose();
-    lines.geometry = new BufferGeometry();
-    lines.geometry.setAttribute('position', new Float32BufferAttribute(ends, 3));
+    lines.geometry = geometryOf(ends);
   }
 }

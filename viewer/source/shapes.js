@@ -4,6 +4,18 @@ import {
   Matrix4, Shape, SphereGeometry,
 } from 'three';
 
+/// A geometry of points, three numbers each.
+export function geometryOf(points) {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new Float32BufferAttribute(points, 3));
+  return geometry;
+}
+
+/// The axis in the pad plane about which the object can roll; none where it cannot.
+export function rollAxis({prisms, cylinders}) {
+  return [...prisms, ...cylinders].find(({axis}) => axis !== 'z')?.axis;
+}
+
 function shapeOf(outline) {
   const shape = new Shape();
   outline.forEach(([x, y], i) => (i === 0 ? shape.moveTo(x, y) : shape.lineTo(x, y)));
@@ -65,9 +77,7 @@ function cylinderEdges(radius, length) {
     points.push(x, -half, z, x, half, z);
   }
   for (const y of [-half, half]) points.push(0, y, 0, radius, y, 0);
-  const geometry = new BufferGeometry();
-  geometry.setAttribute('position', new Float32BufferAttribute(points, 3));
-  return geometry;
+  return geometryOf(points);
 }
 
 /// The lines that make a shape readable.
@@ -82,16 +92,14 @@ function sideStrips(sides) {
     const [p, q, r, s] = [[...a, low], [...b, low], [...b, high], [...a, high]];
     positions.push(...p, ...r, ...q, ...p, ...s, ...r);
   }
-  const geometry = new BufferGeometry();
-  geometry.setAttribute('position', new Float32BufferAttribute(positions, 3));
+  const geometry = geometryOf(positions);
   geometry.computeVertexNormals();
   return geometry;
 }
 
 /// Triangles of the data: flat, so that edges stay sharp.
 export function triangles({vertices, triangles: indices}) {
-  const geometry = new BufferGeometry();
-  geometry.setAttribute('position', new Float32BufferAttribute(vertices.map((um) => 1e-6 * um), 3));
+  const geometry = geometryOf(vertices.map((um) => 1e-6 * um));
   geometry.setIndex(indices);
   const flat = geometry.toNonIndexed();
   flat.computeVertexNormals();

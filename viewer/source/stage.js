@@ -1,8 +1,8 @@
 // One film on one canvas: the scene graph is that of the frames, W > H > O, and the whole of
 // it is turned so that either the world or the hand stands still.
 import {
-  BufferGeometry, Color, DirectionalLight, Float32BufferAttribute, Group, HemisphereLight, LineBasicMaterial,
-  LineSegments, Matrix4, PerspectiveCamera, Quaternion, Scene, Vector3, WebGLRenderer,
+  Color, DirectionalLight, Group, HemisphereLight, LineBasicMaterial, LineSegments, Matrix4, PerspectiveCamera,
+  Quaternion, Scene, Vector3, WebGLRenderer,
 } from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 
@@ -11,7 +11,7 @@ import {Confines} from './confines.js';
 import {ContactMarks} from './contact_marks.js';
 import {PadMarks} from './pad_marks.js';
 import {inverse} from './pose.js';
-import {edgesOf, objectGeometries, plainGeometries, prism, pusherGeometry} from './shapes.js';
+import {edgesOf, geometryOf, objectGeometries, plainGeometries, prism, pusherGeometry, rollAxis} from './shapes.js';
 import {solid} from './solid.js';
 import {Traces} from './traces.js';
 
@@ -25,6 +25,7 @@ const kViews = {
   front: [0, 0, 1.8],
   side: [1.8, 0.25, 0.25],
 };
+export const kViewNames = Object.keys(kViews);
 
 function setPose(group, [x, y, theta], z = 0) {
   group.position.set(x, y, z);
@@ -43,16 +44,9 @@ export class Stage {
     this.camera = new PerspectiveCamera(kFieldOfView, 1, 0.05 * this.reach, 100 * this.reach);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener('change', () => this.render());
-    this.#rollAxis();
+    this.axis = kAxes[rollAxis(film.data.object) ?? 'z'];  // about which psi turns
     this.setColours(colours);
     this.look('free');
-  }
-
-  /// The axis about which psi turns.
-  #rollAxis() {
-    const {prisms, cylinders} = this.film.data.object;
-    const lying = [...prisms, ...cylinders].find(({axis}) => axis !== 'z');
-    this.axis = kAxes[lying?.axis ?? 'z'];
   }
 
   /// Builds everything anew in these colours.
@@ -153,9 +147,7 @@ export class Stage {
         }
       }
     }
-    const geometry = new BufferGeometry();
-    geometry.setAttribute('position', new Float32BufferAttribute(points, 3));
-    return new LineSegments(geometry, new LineBasicMaterial({color: colour, transparent: true, opacity}));
+    return new LineSegments(geometryOf(points), new LineBasicMaterial({color: colour, transparent: true, opacity}));
   }
 
   #poseObject(group, [x, y, theta, psi], z) {

@@ -1,12 +1,11 @@
 // The marks that the pads rub on the object: the path of the finger axis in O.
-import {BufferGeometry, Float32BufferAttribute, Group, Line, LineBasicMaterial} from 'three';
+import {Group, Line, LineBasicMaterial} from 'three';
 
 import {inverse} from './pose.js';
+import {geometryOf, rollAxis} from './shapes.js';
 
 function line(points, colour, opacity) {
-  const geometry = new BufferGeometry();
-  geometry.setAttribute('position', new Float32BufferAttribute(points, 3));
-  const trace = new Line(geometry, new LineBasicMaterial({color: colour, transparent: true, opacity, depthTest: false}));
+  const trace = new Line(geometryOf(points), new LineBasicMaterial({color: colour, transparent: true, opacity, depthTest: false}));
   trace.renderOrder = 4;
   return trace;
 }
@@ -19,8 +18,7 @@ export class Traces {
     const points = [];
     const z = film.data.object.half_thickness;
     // An object that can roll turns its faces away: its path is none in the pad plane.
-    const {prisms, cylinders} = film.data.object;
-    const canRoll = [...prisms, ...cylinders].some(({axis}) => axis !== 'z');
+    const canRoll = rollAxis(film.data.object) !== undefined;
     for (const push of film.data.pushes) {
       this.counts.push(points.length / 3);
       if (canRoll) continue;

@@ -112,7 +112,12 @@ std::string describe(const ViewFiles& out, bool agrees) {
 int run(const Options& options) {
   check_view_files(options.out);
   std::vector<Shown> shown;
-  for (const std::string& file : options.files) shown.push_back(read(options, file));
+  try {
+    for (const std::string& file : options.files) shown.push_back(read(options, file));
+  } catch (const BadInput& bad) {
+    write_refusal(options.out, bad.what());
+    throw;
+  }
   ViewFiles out = options.out;
   if (out.page.empty() && out.frames.empty() && out.glb.empty() && out.mjcf.empty()) {
     out.page = "view.html";

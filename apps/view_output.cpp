@@ -1,5 +1,7 @@
 #include "apps/view_output.h"
 
+#include <filesystem>
+
 #include <CLI/CLI.hpp>
 
 #include "apps/mujoco_output.h"
@@ -65,6 +67,11 @@ bool write_view(const ViewFiles& files, const std::vector<Shown>& shown) {
   if (!mjcf.empty()) write_atomically(files.mjcf, mjcf);
   if (!files.page.empty()) write_atomically(files.page, viewer::page(title, films));
   return all_agree;
+}
+
+void write_refusal(const ViewFiles& files, const std::string& why) {
+  if (files.page.empty() || std::filesystem::exists(files.page)) return;
+  write_atomically(files.page, viewer::page_of_words("This cannot be shown", why));
 }
 
 }  // namespace prehensile::apps

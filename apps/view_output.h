@@ -46,4 +46,8 @@ void check_view_files(const ViewFiles& files);
 /// Writes the files. False if a plan does not stand up to its replay.
 bool write_view(const ViewFiles& files, const std::vector<Shown>& shown);
 
+/// Writes a page that says why nothing is shown, where one is wanted and no file stands:
+/// what is there may be a page that somebody needs.
+void write_refusal(const ViewFiles& files, const std::string& why);
+
 }  // namespace prehensile::apps

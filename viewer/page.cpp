@@ -63,6 +63,31 @@ std::string html_text(const std::string& words) {
   return out;
 }
 
+std::string page_of_words(const std::string& title, const std::string& words) {
+  std::string out = R"(<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'">
+<title><!--title--></title>
+<style>
+:root { color-scheme: light dark; }
+body { font: 16px/1.5 system-ui, sans-serif; max-width: 44rem; margin: 4rem auto; padding: 0 1rem; }
+pre { white-space: pre-wrap; overflow-wrap: anywhere; border-left: 4px solid #c9453b; padding: .5rem 1rem; }
+</style>
+</head>
+<body>
+<h1><!--title--></h1>
+<pre><!--words--></pre>
+</body>
+</html>
+)";
+  for (int i = 0; i < 2; ++i) fill(out, "<!--title-->", html_text(title));
+  fill(out, "<!--words-->", html_text(words));
+  return out;
+}
+
 std::string page(const std::string& title, const std::vector<std::string>& films) {
   std::string data = "[";
   for (const std::string& film : films) {

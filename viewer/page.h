@@ -10,6 +10,9 @@ namespace prehensile::viewer {
 /// One or two films, each the JSON of to_json (film_json.h), side by side.
 std::string page(const std::string& title, const std::vector<std::string>& films);
 
+/// A page without anything to play: what could not be shown, and why.
+std::string page_of_words(const std::string& title, const std::string& words);
+
 /// JSON that may stand inside a script element: no "<", ">", "&" and no line separators
 /// are left outside escapes, so nothing in it can end the element.
 std::string json_for_script(const std::string& json);

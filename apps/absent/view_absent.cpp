@@ -31,4 +31,6 @@ void check_view_files(const ViewFiles&) {}
 
 bool write_view(const ViewFiles&, const std::vector<Shown>&) { return true; }
 
+void write_refusal(const ViewFiles&, const std::string&) {}
+
 }  // namespace prehensile::apps

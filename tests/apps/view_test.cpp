@@ -1,4 +1,5 @@
 /// `view`, and --view of the commands that make plans and pushes.
+#include <filesystem>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -102,16 +103,22 @@ TEST_F(ViewTest, ShowsARefusal) {
   EXPECT_TRUE(holds(read_text(page_), "\"usable\":false"));
 }
 
-TEST_F(ViewTest, BrokenFilesLeaveNothing) {
-  const std::string none = folder_.path("none.html").string();
-  write_text(plan_, "{\"version\": 1");
-  const Outcome broken = run_program("view " + plan_ + " -o " + none);
+TEST_F(ViewTest, BrokenFilesGiveAPageThatSaysSo) {
+  std::filesystem::remove(page_);
+  write_text(plan_, "{\"version\": 1<script>");
+  const Outcome broken = run_program("view " + plan_ + " -o " + page_);
   EXPECT_EQ(broken.exit_code, 2);
   EXPECT_TRUE(holds(broken.err, "plan.json:1:")) << broken.err;
-  EXPECT_EQ(run_program("view missing.json -o " + none).exit_code, 2);
-  EXPECT_EQ(run_program("view missing.yaml -o " + none).exit_code, 2);
-  EXPECT_EQ(run_program("view -o " + none).exit_code, 2);
-  EXPECT_TRUE(read_text(none).empty());
+  const std::string page = read_text(page_);
+  EXPECT_TRUE(holds(page, "This cannot be shown"));
+  EXPECT_TRUE(holds(page, "plan.json:1:"));
+  EXPECT_FALSE(holds(page, "<script"));
+  // What is there stays.
+  write_text(page_, "a page that somebody needs");
+  EXPECT_EQ(run_program("view missing.json -o " + page_).exit_code, 2);
+  EXPECT_EQ(run_program("view missing.yaml -o " + page_).exit_code, 2);
+  EXPECT_EQ(run_program("view -o " + page_).exit_code, 2);
+  EXPECT_EQ(read_text(page_), "a page that somebody needs");
 }
 
 }  // namespace

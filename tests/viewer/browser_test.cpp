@@ -1,4 +1,5 @@
 /// Pages in a real browser, where there is one: no error, and something is drawn.
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -113,6 +114,38 @@ TEST(BrowserFull, OpensEveryKindOfPage) {
 }
 
 /// Keys do what the page says they do.
+/// Scene files below problems/, from there.
+std::vector<std::string> shipped_scenes() {
+  const fs::path root = testing::kSourceTree / "problems";
+  std::vector<std::string> scenes;
+  for (const auto& entry : fs::recursive_directory_iterator(root)) {
+    if (entry.path().extension() != ".yaml") continue;
+    scenes.push_back(fs::relative(entry.path(), root).string());
+  }
+  std::sort(scenes.begin(), scenes.end());
+  return scenes;
+}
+
+/// Every shipped scene, an eighth at a time: its plan, or the scene where there is none.
+class ShippedScenesFull : public ::testing::TestWithParam<int> {};
+
+TEST_P(ShippedScenesFull, OpenWithoutAnError) {
+  const std::string program = browser();
+  if (program.empty()) GTEST_SKIP() << "no chromium on this machine";
+  const Folder folder;
+  const std::vector<std::string> scenes = shipped_scenes();
+  ASSERT_GE(scenes.size(), 110U);
+  for (std::size_t i = static_cast<std::size_t>(GetParam()); i < scenes.size(); i += 8) {
+    const FilmCase one = testing::planned(scenes[i]);
+    const std::string text = page(one.what, {to_json(one.model, one.plan, one.film)});
+    EXPECT_LT(text.size(), 1'000'000U) << one.what;
+    const double first = expect_drawn(program, folder, one.what, text, "#share=0.5");
+    std::printf("%s: %zu kB, first frame after %.0f ms\n", one.what.c_str(),
+                text.size() / 1000, first);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Eighths, ShippedScenesFull, ::testing::Range(0, 8));
+
 TEST(BrowserFull, ObeysKeys) {
   const std::string program = browser();
   if (program.empty()) GTEST_SKIP() << "no chromium on this machine";

@@ -45,10 +45,10 @@ inline constexpr std::array<Word<bool>, 2> kBoundWords = {
     {{true, "distances"}, {false, "contacts"}}};
 inline constexpr std::array<Word<bool>, 2> kGravityWords = {
     {{false, "may help"}, {true, "must not help"}}};
-inline const auto kProofWords = named(
-    std::array{Proof::Kind::kGoalOffObject, Proof::Kind::kStartFalls,
-               Proof::Kind::kGoalFalls, Proof::Kind::kNoPusher, Proof::Kind::kNoRoll,
-               Proof::Kind::kHalfSpace, Proof::Kind::kGoalBeyondLimits});
+inline const auto kProofWords = named(std::array{
+    Proof::Kind::kGoalOffObject, Proof::Kind::kStartFalls, Proof::Kind::kGoalFalls,
+    Proof::Kind::kNoPusher, Proof::Kind::kNoRoll, Proof::Kind::kHalfSpace,
+    Proof::Kind::kGoalBeyondLimits, Proof::Kind::kBarrier});
 
 /// A push as the file has it: pusher and face by name.
 struct WrittenPush {
@@ -172,6 +172,13 @@ void visit_proof(Fields& fields, Proof& proof) {
                 "Evidence that gravity is not held.");
   fields.vector("direction", proof.direction, {-1.0, 1.0, ""}, kRequired,
                 "Normal of the half-plane that excludes the goal.");
+  fields.list("region", proof.region, Length{0, 200}, kOptional,
+              "Of a barrier: places of the finger axis in O that no push leaves, by the "
+              "closed borders between which they are (even-odd rule).",
+              [](auto& f, std::vector<Vec2>& border) {
+                f.points("border", border, Length{3, 2000}, kMetres,
+                         "Vertices in O. Borders neither cross nor touch.");
+              });
   fields.text("text", proof.text, kRequired, "The argument in words.");
 }
 

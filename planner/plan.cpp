@@ -67,6 +67,8 @@ std::string_view name(Proof::Kind kind) {
       return "half space";
     case Proof::Kind::kGoalBeyondLimits:
       return "goal beyond limits";
+    case Proof::Kind::kBarrier:
+      return "barrier";
   }
   return "unknown";
 }

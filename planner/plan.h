@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "mechanics/sticking.h"
+#include "planner/level_set.h"
 #include "planner/push_constraint.h"
 #include "primitives/push.h"
 #include "primitives/transition.h"
@@ -53,10 +54,12 @@ struct Proof {
     kHalfSpace,      ///< every possible push moves p_OF into a half-plane that excludes
                      ///< the goal; direction = its normal
     kGoalBeyondLimits,  ///< the limits of the scene exclude every pose of the goal set
+    kBarrier,  ///< no push moves p_OF out of a region that excludes the goal; region = it
   };
   Kind kind = Kind::kNone;
   PlanarTwist twist = PlanarTwist::Zero();
   Vec2 direction = Vec2::Zero();
+  Loops region;  ///< [m] of places p_OF
   std::string text;
 };
 std::string_view name(Proof::Kind kind);

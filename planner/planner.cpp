@@ -170,7 +170,15 @@ void keep_as_nominal(const Model& model, const PlanOptions& options, const Found
   plan = std::move(nominal);
 }
 
-/// With the margin, and without if that finds nothing.
+void set_infeasible(Plan& plan, const Proof& proof) {
+  plan.status = PlanStatus::kInfeasible;
+  plan.proof = proof;
+  plan.message = proof.text;
+  plan.pushes.clear();
+}
+
+/// With the margin; if that finds nothing, a barrier is looked for, and if there is none
+/// either, a plan without margin.
 Plan search_with_and_without(const Model& model, const PlanOptions& options, Work& work) {
   const Margin margin = options.margin.value_or(margin_of(model, usual_box()));
   const bool nominal = margin.is_none();
@@ -182,11 +190,15 @@ Plan search_with_and_without(const Model& model, const PlanOptions& options, Wor
   plan.promise = nominal ? Promise::kNominal : options.promise;
   const bool undecided =
       plan.status == PlanStatus::kBudgetSpent || plan.status == PlanStatus::kStopped;
-  if (!falls_back || !undecided) return plan;
+  if (!undecided) return plan;
   if (Limits(options, work).stopped()) {
-    keep_as_nominal(model, options, found, plan);
+    if (falls_back) keep_as_nominal(model, options, found, plan);
     return plan;
   }
+  if (work.meter) work.meter->enter("proof");
+  const Proof proof = find_barrier_proof(model);
+  if (proof.kind != Proof::Kind::kNone) set_infeasible(plan, proof);
+  if (!falls_back || proof.kind != Proof::Kind::kNone) return plan;
   PlanOptions rest = options;
   rest.time_limit *= 1.0 - kShareOfTime;
   work.budget += work.done();
@@ -257,10 +269,9 @@ Plan decide(const Model& model, const PlanOptions& options) {
         "(PREHENSILE_OBSTACLES)";
     return plan;
   }
-  plan.proof = find_proof(model);
-  if (plan.proof.kind != Proof::Kind::kNone) {
-    plan.status = PlanStatus::kInfeasible;
-    plan.message = plan.proof.text;
+  const Proof proof = find_proof(model);
+  if (proof.kind != Proof::Kind::kNone) {
+    set_infeasible(plan, proof);
     return plan;
   }
   ProgressMeter meter(options.progress);

@@ -3,6 +3,8 @@
 #include <numbers>
 
 #include "mechanics/pad_law.h"
+#include "planner/barrier.h"
+#include "planner/goal_cover.h"
 #include "planner/planner.h"
 #include "planner/refuse.h"
 
@@ -15,32 +17,6 @@ constexpr double kPi = std::numbers::pi;
 bool refuse(std::string* why, const char* text) {
   if (why) *why = text;
   return false;
-}
-
-double angle_tolerance(const Goal& goal) {
-  return goal.test == GoalTest::kPerCoordinate
-             ? goal.angle_tolerance
-             : goal.position_tolerance / goal.characteristic_length;
-}
-
-/// Greatest distance of a member of the goal set from a place with the fixed coordinates.
-double place_tolerance(const Goal& goal) {
-  const bool both = goal.x && goal.y && goal.test == GoalTest::kPerCoordinate;
-  return goal.position_tolerance * (both ? std::numbers::sqrt2 : 1.0);
-}
-
-/// True if `holds(theta, half_step)` is true on a grid over every angle of O in H that
-/// the goal set contains; half_step [rad] is how far an angle may be from the grid.
-template <class Test>
-bool for_all_goal_angles(const Goal& goal, const Test& holds) {
-  const double middle = goal.theta.value_or(0.0);
-  const double half_range = goal.theta ? std::min(angle_tolerance(goal), kPi) : kPi;
-  const int steps = 16 + static_cast<int>(3000.0 * half_range);
-  const double half_step = half_range / steps;
-  for (int i = 0; i <= steps; ++i) {
-    if (!holds(middle + half_range * (2.0 * i / steps - 1.0), half_step)) return false;
-  }
-  return true;
 }
 
 bool verify_no_pusher(const Model& model, std::string* why) {
@@ -162,10 +138,7 @@ bool angle_is_beyond(const Goal& goal, const GraspLimits& limits) {
 /// Whether limits on the place of the finger axis exclude it at every pose of the goal.
 bool place_is_beyond(const Goal& goal, const GraspLimits& limits) {
   if (!goal.x || !goal.y || (!limits.finger_low && !limits.finger_high)) return false;
-  const Vec2 position{*goal.x, *goal.y};
-  return for_all_goal_angles(goal, [&](double theta, double half_step) {
-    const Vec2 p_OF = -rotated(-theta, position);
-    const double slack = place_tolerance(goal) + half_step * position.norm() + 1e-9;
+  return for_all_goal_places(goal, [&](const Vec2& p_OF, double slack) {
     return (limits.finger_low &&
             (p_OF.array() + slack < limits.finger_low->array()).any()) ||
            (limits.finger_high &&
@@ -226,12 +199,9 @@ bool verify_half_space(const Model& model, const Proof& proof, std::string* why)
       return refuse(why, "a contact may move the finger axis along the direction");
     }
   }
-  const Vec2 position{*goal.x, *goal.y};
   const Vec2 start = finger_in_object(model.scene.start.X_HO);
-  const bool beyond = for_all_goal_angles(goal, [&](double theta, double half_step) {
-    const Vec2 d = -rotated(-theta, position) - start;
-    const double slack = place_tolerance(goal) + half_step * position.norm() + 1e-9;
-    return d.dot(proof.direction) > slack;
+  const bool beyond = for_all_goal_places(goal, [&](const Vec2& p_OF, double radius) {
+    return (p_OF - start).dot(proof.direction) > radius;
   });
   return beyond || refuse(why, "a pose of the goal is not beyond the half-plane");
 }
@@ -258,6 +228,8 @@ bool verify(const Model& model, const Proof& proof, std::string* why) {
       return verify_goal_beyond_limits(model, why);
     case Proof::Kind::kHalfSpace:
       return verify_half_space(model, proof, why);
+    case Proof::Kind::kBarrier:
+      return verify_barrier(model, proof.region, why);
     case Proof::Kind::kNone:
       break;
   }

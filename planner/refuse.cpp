@@ -3,6 +3,7 @@
 #include <array>
 
 #include "mechanics/pad_law.h"
+#include "planner/barrier.h"
 #include "planner/planner.h"
 
 namespace prehensile {
@@ -26,6 +27,9 @@ std::string sentence(Proof::Kind kind) {
              "contain the goal";
     case Proof::Kind::kGoalBeyondLimits:
       return "the limits of the scene exclude every pose of the goal";
+    case Proof::Kind::kBarrier:
+      return "no sticking push moves the finger axis out of a region of the object that "
+             "contains the start and not the goal";
     case Proof::Kind::kNone:
       break;
   }
@@ -94,6 +98,12 @@ Proof find_proof(const Model& model) {
     if (accept(model, half_space, proof)) return proof;
   }
   return proof;
+}
+
+Proof find_barrier_proof(const Model& model) {
+  Proof proof = make_proof(Proof::Kind::kBarrier);
+  proof.region = find_barrier(model);
+  return proof.region.empty() ? Proof{} : proof;
 }
 
 }  // namespace prehensile

@@ -8,7 +8,10 @@ namespace prehensile {
 /// How far the friction of an isotropic pad's quadrature may point from its motion [rad].
 inline constexpr double kIsotropyError = 0.01;
 
-/// A proof that `verify` accepts, or kind kNone.
+/// A proof that `verify` accepts, or kind kNone: those that cost microseconds.
 Proof find_proof(const Model& model);
+
+/// The same by a barrier (barrier.h), which takes some tens of milliseconds.
+Proof find_barrier_proof(const Model& model);
 
 }  // namespace prehensile

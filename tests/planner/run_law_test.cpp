@@ -7,15 +7,17 @@
 
 #include <gtest/gtest.h>
 
-#include "mechanics/sticking.h"
 #include "planner/ring_pads.h"
-#include "problems/published_regrasps.h"
-#include "tests/support/random.h"
+#include "tests/planner/law_cases.h"
 
 namespace prehensile {
 namespace {
 
 using testing::Random;
+using testing::random_kappa;
+using testing::random_law_scene;
+using testing::slack_of_pads;
+using testing::with_square_pads;
 
 constexpr double kPi = std::numbers::pi;
 
@@ -38,12 +40,6 @@ Drag drag_of(const Model& model, double theta, const Vec2& e, double omega) {
   return {force.dot(e_H), std::abs(cross(e_H, force)), moment};
 }
 
-/// A kappa anywhere, often where the centre of rotation is among the pad points.
-double random_kappa(Random& random) {
-  const double size = random.chance(0.6) ? random.in(0.0, 3.0) : random.log_in(1e-3, 1e3);
-  return random.chance(0.5) ? size : -size;
-}
-
 /// Whether a cell holds a drag. Cells of kappa and -kappa have the same sigma.
 bool is_held(const PadSection& section, const Drag& drag, double kappa, double c) {
   const double sigma = std::hypot(1.0, kappa);
@@ -56,11 +52,6 @@ bool is_held(const PadSection& section, const Drag& drag, double kappa, double c
                               drag.across / drag.along <= cell.deviation + 1e-9 &&
                               turning >= cell.turning_low && turning <= cell.turning_high;
                      });
-}
-
-Scene with_square_pads(Scene scene) {
-  scene.gripper.pad = RectanglePad{{0.016, 0.016}};
-  return scene;
 }
 
 TEST(PadSection, HoldsTheFrictionBetweenItsSamples) {
@@ -114,18 +105,6 @@ TEST(PadSection, OfADiscHoldsTheFrictionOfItsCircles) {
   }
 }
 
-Scene random_law_scene(Random& random) {
-  Scene scene = random.chance(0.5) ? published_square(random.below(50))
-                                   : published_tee(random.below(50));
-  scene.gripper.grip_force = random.log_in(8.0, 200.0);
-  const bool weightless = random.chance(0.2);
-  scene.g_W =
-      weightless ? Vec2(0.0, 0.0) : Vec2(rotated(random.in(-kPi, kPi), {9.81, 0}));
-  for (auto& pusher : scene.pushers) pusher.friction = random.in(0.0, 1.2);
-  if (random.chance(0.2)) return with_soft_points(scene);
-  return random.chance(0.3) ? with_square_pads(scene) : scene;
-}
-
 struct Tally {
   int sticking = 0, edges_near = 0, ends_near = 0;
 };
@@ -145,13 +124,7 @@ void check_instant(const Model& model, const RunLaws& laws, bool weightless,
   const Vec2 p_OF = random.in_box(0.05, 0.05);
   const PlanarPose X_HO = pose_from_finger(p_OF, random.in(-kPi, kPi));
   const auto sticks = [&](const PushContact& pushed) {
-    const double omega = kappa / model.c;
-    const double slack =
-        has_ring_pads(model)
-            ? ring_slack(model, pushed, p_OF, e, 1.0, omega)
-            : exact_stick_test(model, pushed, 0.0, X_HO, e, 1.0, omega, Margin::none())
-                  .slack;
-    return slack >= 0.0;
+    return slack_of_pads(model, pushed, X_HO, e, kappa) >= 0.0;
   };
   if (!sticks(contact)) return;
   PushContact floating = contact;

@@ -1,0 +1,25 @@
+/// Barriers: regions of places of the finger axis that hold the start and not the goal,
+/// and that no push leaves. Internal to the planner.
+///
+/// Where the finger axis can go, and by how much the object turns on the way, depends on
+/// its place in the object alone, so that a region of places that cannot be
+/// left is a proof for every angle and every number of turns.
+#pragma once
+
+#include "planner/plan.h"
+
+namespace prehensile {
+
+/// A region that `verify_barrier` accepts, or none. Looked for among the regions whose
+/// border is cheap to reach: a field says by how much a way from the start has to leave
+/// what the laws allow (the part of it across the allowed directions [m]), and its levels
+/// are tried. Only for scenes with laws of runs, and goals that fix the place.
+Loops find_barrier(const Model& model);
+
+/// Whether the region holds the start and not the goal, and no push leaves it: `why`
+/// (nullptr: not wanted) says what fails. Each piece of its border on the object is
+/// looked at with every contact and every direction outwards, and cut until the laws
+/// exclude them, or the pads would let go of the object there in that contact's attitude.
+bool verify_barrier(const Model& model, const Loops& region, std::string* why);
+
+}  // namespace prehensile

@@ -1,0 +1,178 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "mechanics/pad_law.h"
+#include "planner/barrier.h"
+#include "planner/goal_cover.h"
+#include "planner/local_law.h"
+#include "scene/outline.h"
+
+namespace prehensile {
+namespace {
+
+/// Vertices of a region, at most: pairs of its edges are compared.
+constexpr std::size_t kMostVertices = 2000;
+
+/// Pieces of the border and ranges of directions are halved so often.
+constexpr int kMostCuts = 12;
+constexpr int kMostTurns = 8;
+
+/// Of the friction's power: what a fall has to leave, for a disc of points resists a
+/// little more or less as it turns.
+constexpr double kUneven = 0.02;
+
+bool refuse(std::string* why, const char* text) {
+  if (why) *why = text;
+  return false;
+}
+
+struct Piece {
+  Vec2 a, b;
+  Vec2 out;  // unit normal, away from the region
+  double length() const { return (b - a).norm(); }
+  Vec2 middle() const { return 0.5 * (a + b); }
+};
+
+bool cross_or_touch(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  const auto side = [](const Vec2& u, const Vec2& v, const Vec2& p) {
+    return cross(v - u, p - u);
+  };
+  const bool parts_cd = side(a, b, c) * side(a, b, d) > 0.0;
+  const bool parts_ab = side(c, d, a) * side(c, d, b) > 0.0;
+  if (parts_cd || parts_ab) return false;
+  const bool overlap_x = std::max(a.x(), b.x()) >= std::min(c.x(), d.x()) &&
+                         std::max(c.x(), d.x()) >= std::min(a.x(), b.x());
+  const bool overlap_y = std::max(a.y(), b.y()) >= std::min(c.y(), d.y()) &&
+                         std::max(c.y(), d.y()) >= std::min(a.y(), b.y());
+  return overlap_x && overlap_y;
+}
+
+bool are_apart(const std::vector<Vec2>& one, const std::vector<Vec2>& other) {
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    for (std::size_t j = 0; j < other.size(); ++j) {
+      if (cross_or_touch(one[i], one[(i + 1) % one.size()], other[j],
+                         other[(j + 1) % other.size()])) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+bool is_well_formed(const Loops& region, std::string* why) {
+  std::size_t vertices = 0;
+  for (const auto& loop : region) {
+    vertices += loop.size();
+    if (loop.size() < 3 || vertices > kMostVertices) {
+      return refuse(why, "the region has too few or too many vertices");
+    }
+    for (const Vec2& vertex : loop) {
+      if (!vertex.allFinite()) return refuse(why, "a vertex of the region is not finite");
+    }
+    if (!is_simple(loop)) return refuse(why, "a border of the region crosses itself");
+  }
+  for (std::size_t i = 0; i < region.size(); ++i) {
+    for (std::size_t j = i + 1; j < region.size(); ++j) {
+      if (!are_apart(region[i], region[j])) {
+        return refuse(why, "two borders of the region cross");
+      }
+    }
+  }
+  return !region.empty() || refuse(why, "there is no region");
+}
+
+/// Distance of a place from the border of the region, negative outside [m].
+double depth_in_region(const Loops& region, const Vec2& p) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto& loop : region) {
+    nearest = std::min(nearest, std::abs(depth_inside(loop, p)));
+  }
+  return is_between(region, p) ? nearest : -nearest;
+}
+
+/// The contact's pushes end where the grasp alone does not hold the object in its
+/// attitude. The excess of gravity's power in one twist is affine in the place, so both
+/// ends decide for all of the piece.
+bool falls_all_along(const Model& model, const PushContact& contact, const Piece& piece) {
+  const auto grasp_there = [&](const Vec2& p_OF) {
+    return grasp_at(model, pose_from_finger(p_OF, 0.0), contact.g_O);
+  };
+  PlanarTwist fall = PlanarTwist::Zero();
+  if (gravity_slack_by_pad_law(model, grasp_there(piece.middle()), &fall) >= 0.0) {
+    return false;
+  }
+  const auto falls_at = [&](const Vec2& p_OF) {
+    const PlanarGrasp grasp = grasp_there(p_OF);
+    return grasp.w_g.dot(fall) > (1.0 + kUneven) * friction_power(model, grasp, fall);
+  };
+  return falls_at(piece.a) && falls_at(piece.b);
+}
+
+/// Whether the laws keep a contact from crossing the piece in any direction whose angle
+/// from `out` is within half_angle of `angle`.
+bool none_crosses(const LocalLaw& law, int contact, const Piece& piece, double angle,
+                  double half_angle, int turns) {
+  const PlaceRange places{piece.a, piece.b};
+  const DirectionRange directions{rotated(angle, piece.out), half_angle};
+  if (!law.may_move(contact, places, directions)) return true;
+  if (turns == 0) return false;
+  const double half = 0.5 * half_angle;
+  return none_crosses(law, contact, piece, angle - half, half, turns - 1) &&
+         none_crosses(law, contact, piece, angle + half, half, turns - 1);
+}
+
+bool is_sealed(const Model& model, const LocalLaw& law, const Piece& piece, int cuts) {
+  if (depth_inside(model.pad_face, piece.middle()) < -0.5 * piece.length()) return true;
+  const auto blocks = [&](std::size_t k) {
+    constexpr double kAcross = 0.5 * std::numbers::pi;
+    return none_crosses(law, static_cast<int>(k), piece, 0.0, kAcross, kMostTurns) ||
+           falls_all_along(model, model.contacts[k], piece);
+  };
+  bool sealed = true;
+  for (std::size_t k = 0; k < model.contacts.size() && sealed; ++k) sealed = blocks(k);
+  if (sealed || cuts == 0) return sealed;
+  const Vec2 middle = piece.middle();
+  return is_sealed(model, law, {piece.a, middle, piece.out}, cuts - 1) &&
+         is_sealed(model, law, {middle, piece.b, piece.out}, cuts - 1);
+}
+
+/// The piece with its normal away from the region. Borders neither cross nor touch, so
+/// that one place beside the piece decides for all of it.
+Piece piece_of(const Loops& region, const Vec2& a, const Vec2& b) {
+  Piece piece{a, b, perp((a - b).normalized())};
+  const double aside = 1e-6 * piece.length();
+  if (is_between(region, piece.middle() + aside * piece.out)) piece.out = -piece.out;
+  return piece;
+}
+
+}  // namespace
+
+bool verify_barrier(const Model& model, const Loops& region, std::string* why) {
+  const Goal& goal = *model.scene.goal;
+  if (!goal.x || !goal.y) return refuse(why, "the goal leaves a coordinate free");
+  const LocalLaw law(model);
+  if (!law.is_known())
+    return refuse(why, "the friction of these pads is not known at every angle");
+  if (!is_well_formed(region, why)) return false;
+  const Vec2 start = finger_in_object(model.scene.start.X_HO);
+  if (depth_in_region(region, start) <= 0.0) {
+    return refuse(why, "the start is not in the region");
+  }
+  if (!for_all_goal_places(goal, [&](const Vec2& p_OF, double radius) {
+        return depth_in_region(region, p_OF) < -radius;
+      })) {
+    return refuse(why, "a pose of the goal is in the region");
+  }
+  for (const auto& loop : region) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Piece piece = piece_of(region, loop[i], loop[(i + 1) % loop.size()]);
+      if (!is_sealed(model, law, piece, kMostCuts)) {
+        return refuse(why, "a push may cross the border of the region");
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace prehensile

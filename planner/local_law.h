@@ -1,0 +1,56 @@
+/// What the friction of the pads lets a contact do at an instant: whether a sticking push
+/// can carry the finger axis through a place in a direction, whatever the object turns by
+/// and at whatever angle. Internal to the planner.
+///
+/// The pads' friction is one of the boxes of their section (pad_section.h), of which each
+/// inequality of a sticking instant takes the side that leaves most: what is denied here
+/// no friction in the boxes allows.
+#pragma once
+
+#include <vector>
+
+#include "mechanics/model.h"
+
+namespace prehensile {
+
+/// Places p_OF from a to b, a straight line [m].
+struct PlaceRange {
+  Vec2 a, b;
+};
+
+/// Directions in which the finger axis moves through the object that differ from `middle`
+/// (unit, in O) by up to half_angle [rad].
+struct DirectionRange {
+  Vec2 middle;
+  double half_angle = 0.0;
+};
+
+/// Friction over F, and over F c, of the pads for some interval of kappa = tan(phi).
+struct FrictionBox {
+  double along_low = 0.0, along_high = 0.0;    ///< against the motion, >= 0
+  double across = 0.0;                         ///< at most, of either sign
+  double moment_low = 0.0, moment_high = 0.0;  ///< over F c
+  double cosine_low = 0.0, cosine_high = 0.0;  ///< of phi
+  double sine_low = 0.0, sine_high = 0.0;      ///< of phi
+};
+
+class LocalLaw {
+ public:
+  /// Known of whole pads: soft points, discs, and what is alike at every quarter turn
+  /// (pad_section.h). `model` must outlive the law.
+  explicit LocalLaw(const Model& model);
+
+  /// False: these pads have none, or pushes need the mechanics in space.
+  bool is_known() const { return !boxes_.empty(); }
+
+  /// Whether the contact, wherever along its face its pusher stands, may stick and move
+  /// the finger axis in one of these directions at one of these places. No heap.
+  bool may_move(int contact, const PlaceRange& places,
+                const DirectionRange& directions) const noexcept;
+
+ private:
+  const Model& model_;
+  std::vector<FrictionBox> boxes_;
+};
+
+}  // namespace prehensile

@@ -1,0 +1,220 @@
+#include "planner/barrier.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "planner/refuse.h"
+#include "problems/random_fixtures.h"
+#include "tests/planner/law_cases.h"
+#include "tests/planner/planner_cases.h"
+
+namespace prehensile {
+namespace {
+
+using testing::goal_at;
+using testing::Random;
+using testing::random_kappa;
+using testing::slack_of_pads;
+using testing::walled_square;
+
+constexpr double kPi = std::numbers::pi;
+
+/// A goal on a way within the friction cone of the one wall left, but not for a wall that
+/// has to lift the object as well.
+Scene lift_by_one_wall() {
+  Scene scene = walled_square();
+  scene.pushers.resize(1);
+  scene.start.X_HO = pose_from_finger({0.02, 0.0}, 0.0);
+  scene.goal = goal_at({-0.01, -0.0252}, 0.3);
+  return scene;
+}
+
+/// A problem with goals anywhere whose pads are whole everywhere.
+std::optional<Scene> random_problem(std::uint64_t index) {
+  FixtureRange range;
+  range.object = index % 2 == 0 ? FixtureObject::kBox : FixtureObject::kConvex;
+  range.count = {1.0, 3.0};
+  range.goals = GoalsFrom::kRandom;
+  auto problem = random_fixture(range, 11, index);
+  if (!problem) return std::nullopt;
+  problem->scene.overhang = Overhang::kIgnore;
+  return problem->scene;
+}
+
+TEST(Barrier, RefusesWhatNoPushReaches) {
+  const Scene scene = lift_by_one_wall();
+  const Model model = prepare(scene);
+  const Plan plan = plan_regrasp(model);
+  EXPECT_EQ(plan.status, PlanStatus::kInfeasible);
+  ASSERT_EQ(plan.proof.kind, Proof::Kind::kBarrier);
+  EXPECT_EQ(plan.message, plan.proof.text);
+  EXPECT_TRUE(plan.pushes.empty());
+  std::string why;
+  EXPECT_TRUE(verify(model, plan.proof, &why)) << why;
+}
+
+/// What a barrier says depends on start, goal, contacts and gravity.
+TEST(Barrier, HoldsForItsProblemOnly) {
+  const Scene scene = lift_by_one_wall();
+  const Loops region = find_barrier(prepare(scene));
+  ASSERT_FALSE(region.empty());
+  const auto refused = [&](const Scene& other) {
+    std::string why;
+    const bool holds = verify_barrier(prepare(other), region, &why);
+    EXPECT_NE(holds, !why.empty());
+    return !holds;
+  };
+  EXPECT_FALSE(refused(scene));
+  Scene other = scene;
+  other.start.X_HO = pose_from_finger({-0.01, -0.0252}, 0.0);
+  EXPECT_TRUE(refused(other));
+  other = scene;
+  other.goal = goal_at({0.02, 0.001}, 0.0);
+  EXPECT_TRUE(refused(other));
+  other = scene;
+  other.goal->y.reset();
+  EXPECT_TRUE(refused(other));
+  other = scene;
+  other.pushers = walled_square().pushers;
+  EXPECT_TRUE(refused(other));
+  other = scene;
+  other.g_W = -scene.g_W;
+  EXPECT_TRUE(refused(other));
+  other = scene;
+  other.overhang = Overhang::kClip;
+  EXPECT_TRUE(refused(other));
+}
+
+TEST(Barrier, RefusesRegionsThatAreNone) {
+  const Model model = prepare(lift_by_one_wall());
+  const Loops region = find_barrier(model);
+  ASSERT_EQ(region.size(), 1u);
+  const auto refused = [&](const Loops& other) {
+    return !verify_barrier(model, other, nullptr);
+  };
+  EXPECT_TRUE(refused({}));
+  EXPECT_TRUE(refused({{}}));
+  EXPECT_TRUE(refused({region[0], region[0]}));
+  Loops other = region;
+  other[0].resize(2);
+  EXPECT_TRUE(refused(other));
+  other = region;
+  other[0][1].x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(refused(other));
+  other = region;
+  std::swap(other[0][0], other[0][2]);
+  EXPECT_TRUE(refused(other));
+  other = region;
+  for (Vec2& vertex : other[0]) vertex *= 100.0;  // the goal is in it, too
+  EXPECT_TRUE(refused(other));
+  const Vec2 start = finger_in_object(model.scene.start.X_HO);
+  other = {
+      {start + Vec2(-1e-3, -1e-3), start + Vec2(1e-3, -1e-3), start + Vec2(0, 1e-3)}};
+  EXPECT_TRUE(refused(other));  // its border can be crossed
+  const std::vector<Vec2> many(3000, start);
+  EXPECT_TRUE(refused({many}));
+}
+
+/// Problems that have a plan have no barrier, wherever it is said to be.
+TEST(Barrier, FeasibleProblemsHaveNone) {
+  Random random(5);
+  for (int i = 0; i < 40; ++i) {
+    RandomRegrasp regrasp = random_regrasp(static_cast<RegraspFamily>(i % 2), 7, i);
+    if (regrasp.scene.overhang != Overhang::kIgnore) continue;
+    const Model model = prepare(regrasp.scene);
+    EXPECT_TRUE(find_barrier(model).empty()) << i;
+    const Vec2 start = finger_in_object(model.scene.start.X_HO);
+    for (int k = 0; k < 20; ++k) {
+      std::vector<Vec2> invented;
+      const double size = random.log_in(1e-3, 0.1);
+      for (int v = 0; v < 8; ++v) {
+        invented.push_back(start +
+                           rotated(0.25 * kPi * v, Vec2(size * random.in(0.5, 1), 0)));
+      }
+      EXPECT_FALSE(verify_barrier(model, {invented}, nullptr)) << i;
+    }
+  }
+}
+
+/// Tries to cross a proved border at random places, by the pads themselves.
+int crossings(const Model& model, const Loops& region, int tries, Random& random) {
+  int crossed = 0;
+  for (int i = 0; i < tries; ++i) {
+    const auto& loop = region[random.below(static_cast<int>(region.size()))];
+    const int v = random.below(static_cast<int>(loop.size()));
+    const Vec2 a = loop[v];
+    const Vec2 b = loop[(v + 1) % loop.size()];
+    const Vec2 p_OF = a + random.in(0.0, 1.0) * (b - a);
+    if (!contains(model.pad_face, p_OF)) continue;
+    Vec2 out = perp((a - b).normalized());
+    if (is_between(region, p_OF + 1e-7 * out)) out = -out;
+    const Vec2 d = rotated(random.in(-0.5, 0.5) * kPi, out);
+    const PushContact& contact =
+        model.contacts[random.below(static_cast<int>(model.contacts.size()))];
+    if (holding_slack(model, p_OF, contact.g_O, Margin::none()) < -0.05) continue;
+    const double kappa = random_kappa(random);
+    const double advance =
+        std::max(contact.n.dot(-d + kappa / model.c * perp(contact.a - p_OF)),
+                 contact.n.dot(-d + kappa / model.c * perp(contact.b - p_OF)));
+    if (advance < 0.0) continue;
+    const PlanarPose X_HO = pose_from_finger(p_OF, random.in(-kPi, kPi));
+    if (slack_of_pads(model, contact, X_HO, -d, kappa) >= 0.0) ++crossed;
+  }
+  return crossed;
+}
+
+/// Random plans by hand: pushes in random directions, as far as they stick. Whether one
+/// carries the finger axis out of the region.
+bool escapes(const Model& model, const Loops& region, int pushes, Random& random) {
+  const SearchModel search = prepare_search(model, Margin::none());
+  Work work{.budget = testing::kNoBudget};
+  FlatState at{finger_in_object(model.scene.start.X_HO), model.scene.start.X_HO.theta};
+  for (int i = 0; i < pushes; ++i) {
+    const int k = random.below(static_cast<int>(search.contacts.size()));
+    const double lean = std::atan(search.contacts[k].stick.mu);
+    const Vec2 e = random.chance(0.7)
+                       ? rotated(random.in(-lean, lean), search.contacts[k].stick.n)
+                       : random.direction();
+    const KappaSet kappas = sticking_kappas(search.contacts[k].stick, at.p_OF, e);
+    if (kappas.empty()) continue;
+    const auto& interval = kappas.intervals[random.below(kappas.count)];
+    const double low = std::max(interval.lo, -30.0);
+    const double high = std::min(interval.hi, 30.0);
+    if (low > high) continue;
+    const double travel = random.log_in(1e-4, 0.05);
+    const double turn = random.in(low, high) * travel / model.c;
+    const FlatState to{at.p_OF - travel * e, at.theta + turn};
+    if (!move_sticks(search, k, at, to, work)) continue;
+    at = to;
+    if (!is_between(region, at.p_OF)) return true;
+  }
+  return false;
+}
+
+void attack(int problems, int tries, int walks) {
+  Random random(3);
+  int proved = 0;
+  for (int i = 0; i < problems; ++i) {
+    const auto scene = random_problem(i);
+    if (!scene) continue;
+    const Model model = prepare(*scene);
+    const Loops region = find_barrier(model);
+    if (region.empty()) continue;
+    ++proved;
+    EXPECT_EQ(crossings(model, region, tries, random), 0) << i;
+    for (int k = 0; k < walks; ++k) {
+      EXPECT_FALSE(escapes(model, region, 200, random)) << i;
+    }
+  }
+  EXPECT_GT(proved, problems / 6);
+}
+
+TEST(Barrier, NothingCrossesIt) { attack(40, 2000, 20); }
+
+TEST(Barrier, FullNothingCrossesIt) { attack(4000, 20'000, 100); }
+
+}  // namespace
+}  // namespace prehensile

@@ -1,0 +1,51 @@
+/// Random instants that tests of laws about pushes share.
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "mechanics/sticking.h"
+#include "planner/ring_pads.h"
+#include "problems/published_regrasps.h"
+#include "tests/support/random.h"
+
+namespace prehensile::testing {
+
+/// A kappa anywhere, often where the centre of rotation is among the pad points.
+inline double random_kappa(Random& random) {
+  const double size = random.chance(0.6) ? random.in(0.0, 3.0) : random.log_in(1e-3, 1e3);
+  return random.chance(0.5) ? size : -size;
+}
+
+inline Scene with_square_pads(Scene scene) {
+  scene.gripper.pad = RectanglePad{{0.016, 0.016}};
+  return scene;
+}
+
+/// A square or a T among walls, pads that are whole everywhere.
+inline Scene random_law_scene(Random& random) {
+  Scene scene = random.chance(0.5) ? published_square(random.below(50))
+                                   : published_tee(random.below(50));
+  scene.gripper.grip_force = random.log_in(8.0, 200.0);
+  const bool weightless = random.chance(0.2);
+  scene.g_W =
+      weightless
+          ? Vec2(0.0, 0.0)
+          : Vec2(rotated(random.in(-std::numbers::pi, std::numbers::pi), {9.81, 0}));
+  for (auto& pusher : scene.pushers) pusher.friction = random.in(0.0, 1.2);
+  if (random.chance(0.2)) return with_soft_points(scene);
+  return random.chance(0.3) ? with_square_pads(scene) : scene;
+}
+
+/// Slack of an instant that the pads themselves decide, as whole plans are checked: rings
+/// for discs, else their points. Motion (e, kappa / c).
+inline double slack_of_pads(const Model& model, const PushContact& contact,
+                            const PlanarPose& X_HO, const Vec2& e, double kappa) {
+  const double omega = kappa / model.c;
+  if (has_ring_pads(model)) {
+    return ring_slack(model, contact, finger_in_object(X_HO), e, 1.0, omega);
+  }
+  return exact_stick_test(model, contact, 0.0, X_HO, e, 1.0, omega, Margin::none()).slack;
+}
+
+}  // namespace prehensile::testing

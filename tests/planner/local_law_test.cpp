@@ -1,0 +1,121 @@
+#include "planner/local_law.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "tests/planner/law_cases.h"
+
+namespace prehensile {
+namespace {
+
+using testing::Random;
+using testing::random_kappa;
+using testing::random_law_scene;
+using testing::slack_of_pads;
+
+constexpr double kPi = std::numbers::pi;
+
+/// Rate at which the pusher advances, at the end of the face where it does so most.
+double advance_of(const PushContact& contact, const Vec2& p_OF, const Vec2& e,
+                  double omega) {
+  const auto rate = [&](const Vec2& end) {
+    return contact.n.dot(e + omega * perp(end - p_OF));
+  };
+  return std::max(rate(contact.a), rate(contact.b));
+}
+
+/// Places around p, of some length in any direction.
+PlaceRange around(const Vec2& p, Random& random) {
+  const Vec2 along = random.log_in(1e-6, 1e-2) * random.direction();
+  const double share = random.in(0.0, 1.0);
+  return {p - share * along, p + (1.0 - share) * along};
+}
+
+DirectionRange around_direction(const Vec2& d, Random& random) {
+  const double half = random.log_in(1e-6, 1.0);
+  return {rotated(random.in(-half, half), d), half};
+}
+
+struct Tally {
+  int sticking = 0, denied_nearby = 0;
+};
+
+void check_instant(const Model& model, const LocalLaw& law, Random& random,
+                   Tally& tally) {
+  const int j = random.below(static_cast<int>(model.contacts.size()));
+  const PushContact& contact = model.contacts[j];
+  const double lean = std::atan(contact.mu) + random.in(-0.3, 0.3);
+  const Vec2 e = random.chance(0.5)
+                     ? rotated(random.chance(0.5) ? lean : -lean, contact.n)
+                     : rotated(random.in(-kPi, kPi), Vec2(1.0, 0.0));
+  const double kappa = random_kappa(random);
+  const Vec2 p_OF = random.in_box(0.05, 0.05);
+  const PlanarPose X_HO = pose_from_finger(p_OF, random.in(-kPi, kPi));
+  if (advance_of(contact, p_OF, e, kappa / model.c) < 0.0) return;
+  if (!(slack_of_pads(model, contact, X_HO, e, kappa) >= 0.0)) return;
+  ++tally.sticking;
+  EXPECT_TRUE(law.may_move(j, {p_OF, p_OF}, {-e, 0.0})) << kappa;
+  EXPECT_TRUE(law.may_move(j, around(p_OF, random), around_direction(-e, random)))
+      << kappa;
+  const DirectionRange beside{rotated(random.in(-1.0, 1.0), -e), 0.01};
+  if (!law.may_move(j, {p_OF, p_OF}, beside)) ++tally.denied_nearby;
+}
+
+void check_instants(int scenes, int instants, std::uint64_t seed) {
+  Random random(seed);
+  Tally tally;
+  for (int i = 0; i < scenes; ++i) {
+    const Scene scene = random_law_scene(random);
+    const Model model = prepare(scene, {.points_per_pad = random.chance(0.7) ? 16 : 64});
+    const LocalLaw law(model);
+    ASSERT_TRUE(law.is_known());
+    for (int k = 0; k < instants; ++k) check_instant(model, law, random, tally);
+  }
+  EXPECT_GT(tally.sticking, scenes * instants / 20);
+  EXPECT_GT(tally.denied_nearby, tally.sticking / 20);
+}
+
+TEST(LocalLaw, DeniesNoInstantThatSticks) { check_instants(60, 2000, 1); }
+
+TEST(LocalLaw, FullDeniesNoInstantThatSticks) { check_instants(2000, 20'000, 2); }
+
+/// Over soft points the law is exact: what it does not deny sticks for some rotation.
+TEST(LocalLaw, OfSoftPointsAllowsWhatSticks) {
+  Random random(3);
+  int allowed = 0;
+  int sticking = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Scene scene = with_soft_points(random_law_scene(random));
+    if (!std::holds_alternative<PointPad>(scene.gripper.pad)) continue;
+    const Model model = prepare(scene);
+    const LocalLaw law(model);
+    const int j = random.below(static_cast<int>(model.contacts.size()));
+    const Vec2 p_OF = random.in_box(0.05, 0.05);
+    const Vec2 d = random.direction();
+    const bool sticks =
+        !sticking_kappas(stick_contact(model, model.contacts[j], 0.0), p_OF, -d).empty();
+    const bool may = law.may_move(j, {p_OF, p_OF}, {d, 0.0});
+    EXPECT_TRUE(may || !sticks);
+    allowed += may ? 1 : 0;
+    sticking += sticks ? 1 : 0;
+  }
+  EXPECT_GT(sticking, 50);
+  EXPECT_LE(allowed, sticking + sticking / 20);
+}
+
+TEST(LocalLaw, IsNotKnownOfPadsThatChange) {
+  Scene scene = published_square(0);
+  scene.overhang = Overhang::kClip;
+  EXPECT_FALSE(LocalLaw(prepare(scene)).is_known());
+  scene.overhang = Overhang::kIgnore;
+  EXPECT_TRUE(LocalLaw(prepare(scene)).is_known());
+  scene.gripper.pad = RectanglePad{{0.02, 0.01}};
+  EXPECT_FALSE(LocalLaw(prepare(scene)).is_known());
+  scene.gripper.grip_force = 0.0;
+  EXPECT_FALSE(LocalLaw(prepare(scene)).is_known());
+}
+
+}  // namespace
+}  // namespace prehensile

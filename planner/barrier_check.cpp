@@ -113,8 +113,8 @@ bool falls_all_along(const Model& model, const PushContact& contact, const Piece
 /// from `out` is within half_angle of `angle`.
 bool none_crosses(const LocalLaw& law, int contact, const Piece& piece, double angle,
                   double half_angle, int turns) {
-  const PlaceRange places{piece.a, piece.b};
-  const DirectionRange directions{rotated(angle, piece.out), half_angle};
+  const PlaceSpan places{piece.a, piece.b};
+  const DirectionSpan directions{rotated(angle, piece.out), half_angle};
   if (!law.may_move(contact, places, directions)) return true;
   if (turns == 0) return false;
   const double half = 0.5 * half_angle;

@@ -114,7 +114,7 @@ struct Advance {
 };
 
 Row edge_of_cone(const PushContact& contact, const Vec2& gamma, double side,
-                 const DirectionRange& directions) {
+                 const DirectionSpan& directions) {
   const Vec2 w = contact.mu * contact.n + side * contact.t;
   return {w.norm() * directions.half_angle - w.dot(directions.middle), 0.0, w.norm(),
           -w.dot(gamma)};
@@ -122,7 +122,7 @@ Row edge_of_cone(const PushContact& contact, const Vec2& gamma, double side,
 
 /// Moment about an end of the face over F c: side +1 about b, -1 about a.
 Row end_of_face(const Model& model, const Vec2& end, const Vec2& gamma, double side,
-                const PlaceRange& places, const DirectionRange& directions) {
+                const PlaceSpan& places, const DirectionSpan& directions) {
   Row row{-INFINITY, side, 0.0, -side * cross(model.p_OCom - end, gamma) / model.c};
   for (const Vec2& place : {places.a, places.b}) {
     const Vec2 lever = (place - end) / model.c;
@@ -134,7 +134,7 @@ Row end_of_face(const Model& model, const Vec2& end, const Vec2& gamma, double s
 }
 
 Advance advance_of(const PushContact& contact, const Vec2& end, double c,
-                   const PlaceRange& places, const DirectionRange& directions) {
+                   const PlaceSpan& places, const DirectionSpan& directions) {
   const auto turning = [&](const Vec2& place) {
     return contact.n.dot(perp(end - place)) / c;
   };
@@ -146,8 +146,8 @@ Advance advance_of(const PushContact& contact, const Vec2& end, double c,
 
 LocalLaw::LocalLaw(const Model& model) : model_(model), boxes_(boxes_of(model)) {}
 
-bool LocalLaw::may_move(int contact, const PlaceRange& places,
-                        const DirectionRange& directions) const noexcept {
+bool LocalLaw::may_move(int contact, const PlaceSpan& places,
+                        const DirectionSpan& directions) const noexcept {
   const PushContact& pushed = model_.contacts[contact];
   const Vec2 gamma = model_.mass / model_.F * pushed.g_O;
   const std::array rows = {

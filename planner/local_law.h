@@ -14,13 +14,13 @@
 namespace prehensile {
 
 /// Places p_OF from a to b, a straight line [m].
-struct PlaceRange {
+struct PlaceSpan {
   Vec2 a, b;
 };
 
 /// Directions in which the finger axis moves through the object that differ from `middle`
 /// (unit, in O) by up to half_angle [rad].
-struct DirectionRange {
+struct DirectionSpan {
   Vec2 middle;
   double half_angle = 0.0;
 };
@@ -45,8 +45,8 @@ class LocalLaw {
 
   /// Whether the contact, wherever along its face its pusher stands, may stick and move
   /// the finger axis in one of these directions at one of these places. No heap.
-  bool may_move(int contact, const PlaceRange& places,
-                const DirectionRange& directions) const noexcept;
+  bool may_move(int contact, const PlaceSpan& places,
+                const DirectionSpan& directions) const noexcept;
 
  private:
   const Model& model_;

@@ -181,6 +181,7 @@ std::vector<FilmPhase> phases_of(const Model& model, const Film& film,
 
 Film film(const Model& model, const Plan& plan, const FilmOptions& options) {
   Film result;
+  result.region = plan.proof.region;
   const int count = std::clamp(static_cast<int>(plan.pushes.size()), 1, options.pushes);
   const int frames = std::clamp(options.frames / count, 3, 80);
   Replay replayed;

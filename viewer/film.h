@@ -59,6 +59,7 @@ struct FilmPhase {
 struct Film {
   std::vector<FilmPush> pushes;
   std::vector<FilmPhase> phases;
+  Loops region;  ///< of a refusal by a barrier: places of the finger axis in O
   std::vector<Grasp> outcomes;           ///< where members of the uncertainty ended
   std::optional<ObjectSurface> surface;  ///< of an object from a mesh, where it is known
   bool agrees = true;                    ///< a replay of the plan agrees with it

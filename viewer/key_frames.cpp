@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "planner/obstacle_bodies.h"
+#include "scene/outline.h"
 #include "viewer/panel.h"
 #include "viewer/surfaces.h"
 
@@ -30,6 +31,7 @@ const char* const kRed = "#b3261e";
 const char* const kGreen = "#14803f";
 const char* const kPad = "#2b2f36";
 const char* const kBody = "#c9ccd1";
+const char* const kReached = "#e3a008";
 
 std::vector<Vec2> moved(const PlanarPose& X, std::vector<Vec2> points) {
   for (Vec2& p : points) p = transform(X, p);
@@ -273,11 +275,33 @@ std::string clip(std::size_t index, double left, double top) {
          "\"/></clipPath><g clip-path=\"url(#" + id + ")\">";
 }
 
-void draw_still(Panel& panel, const Model& model) {
+/// The part of the object that the finger axis cannot leave. The borders run round what
+/// is between them, so that one after the other they are one polygon.
+void draw_region(Panel& panel, const Model& model, const Loops& region) {
+  const PlanarPose& X_HO = model.scene.start.X_HO;
+  std::vector<Vec2> border;
+  for (const auto& loop : region) {
+    border.insert(border.end(), loop.begin(), loop.end());
+    border.push_back(loop.front());
+  }
+  for (std::size_t i = region.size(); i-- > 1;) border.push_back(region[i - 1].front());
+  panel.clip_to(moved(X_HO, model.pad_face));
+  panel.polygon(moved(X_HO, border), kReached, 0.45, {kReached, 1.2, ""});
+  panel.end_clip();
+  if (const auto& goal = model.scene.goal; goal->x && goal->y && goal->theta) {
+    const Vec2 p_OF = finger_in_object({*goal->x, *goal->y, *goal->theta});
+    const double radius = 5.0 / panel.scale();
+    panel.polygon(circle(transform(X_HO, p_OF), radius), kGreen, 1.0, {kGreen, 1.0, ""});
+  }
+}
+
+void draw_still(Panel& panel, const Model& model, const Film& film) {
   const Grasp& start = model.scene.start;
   draw_obstacles(panel, model, start.X_HO);  // O is W at the start
   panel.polygon(moved(start.X_HO, model.outline), kFill, 0.8, {kEdge, 1.7, ""});
-  if (const auto& goal = model.scene.goal) {
+  if (!film.region.empty()) {
+    draw_region(panel, model, film.region);
+  } else if (const auto& goal = model.scene.goal) {
     const PlanarPose X{goal->x.value_or(start.X_HO.x), goal->y.value_or(start.X_HO.y),
                        goal->theta.value_or(start.X_HO.theta)};
     panel.polygon(moved(X, model.outline), "none", 1.0, {kGreen, 1.5, "4 3"});
@@ -300,6 +324,9 @@ std::string key_frames(const Model& model, const Film& film, int most) {
   for (std::size_t i = 0; i < shown; ++i) {
     middles[i] = middle_of(model, film.pushes[i], half_width);
   }
+  if (!film.region.empty()) {
+    middles[0] = transform(model.scene.start.X_HO, properties_of(model.outline).centroid);
+  }
   Drawing drawing;
   drawing.rectangle(0.0, 0.0, width, height, "#ffffff", {});
   for (std::size_t i = 0; i < panels; ++i) {
@@ -312,7 +339,7 @@ std::string key_frames(const Model& model, const Film& film, int most) {
     Panel panel(drawing, left, top, middle, half);
     drawing.raw(clip(i, left, top));
     if (i >= shown) {
-      draw_still(panel, model);
+      draw_still(panel, model, film);
     } else if (rolls) {
       draw_roll(panel, model, film.pushes[i], most_force_of(film.pushes[i], true));
     } else {
@@ -330,6 +357,11 @@ std::string key_frames(const Model& model, const Film& film, int most) {
   std::string caption =
       "dark: the pads, which stand still; red: the pusher, its force and friction cone; "
       "dashed: before";
+  if (!film.region.empty()) {
+    caption =
+        "yellow: no push takes the pads' middle out of it; green: where the goal needs "
+        "it";
+  }
   if (shown < film.pushes.size()) {
     caption +=
         std::string("; ") + std::to_string(film.pushes.size() - shown) + " more pushes";

@@ -40,6 +40,14 @@ class Panel {
     drawing_.path(data + 'Z', fill, opacity, stroke);
   }
 
+  /// What is drawn until end_clip shows only within a polygon, once in a picture.
+  void clip_to(const std::vector<Vec2>& points) {
+    drawing_.raw("<clipPath id=\"within\">");
+    polygon(points, "none", 1.0, {});
+    drawing_.raw("</clipPath><g clip-path=\"url(#within)\">");
+  }
+  void end_clip() { drawing_.raw("</g>"); }
+
   void line(const Vec2& a, const Vec2& b, const plot::Drawing::Stroke& stroke) {
     const Vec2 p = to_px(a);
     const Vec2 q = to_px(b);

@@ -27,13 +27,13 @@ double advance_of(const PushContact& contact, const Vec2& p_OF, const Vec2& e,
 }
 
 /// Places around p, of some length in any direction.
-PlaceRange around(const Vec2& p, Random& random) {
+PlaceSpan around(const Vec2& p, Random& random) {
   const Vec2 along = random.log_in(1e-6, 1e-2) * random.direction();
   const double share = random.in(0.0, 1.0);
   return {p - share * along, p + (1.0 - share) * along};
 }
 
-DirectionRange around_direction(const Vec2& d, Random& random) {
+DirectionSpan around_direction(const Vec2& d, Random& random) {
   const double half = random.log_in(1e-6, 1.0);
   return {rotated(random.in(-half, half), d), half};
 }
@@ -59,7 +59,7 @@ void check_instant(const Model& model, const LocalLaw& law, Random& random,
   EXPECT_TRUE(law.may_move(j, {p_OF, p_OF}, {-e, 0.0})) << kappa;
   EXPECT_TRUE(law.may_move(j, around(p_OF, random), around_direction(-e, random)))
       << kappa;
-  const DirectionRange beside{rotated(random.in(-1.0, 1.0), -e), 0.01};
+  const DirectionSpan beside{rotated(random.in(-1.0, 1.0), -e), 0.01};
   if (!law.may_move(j, {p_OF, p_OF}, beside)) ++tally.denied_nearby;
 }
 

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "planner/refuse.h"
+#include "problems/published_regrasps.h"
 #include "tests/viewer/film_cases.h"
 #include "viewer/film_json.h"
 #include "viewer/key_frames.h"
@@ -197,6 +199,29 @@ TEST(Page, ARefusalSaysWhy) {
     EXPECT_NEAR((p - contact.a).dot(contact.n), 0.0, 1e-6);
     EXPECT_GT((-p).dot(contact.n), 0.0);
   }
+}
+
+/// A refusal by a barrier shows the region on the object, and where the goal is.
+TEST(KeyFrames, ShowTheRegionOfABarrier) {
+  Scene scene = published_square(0);
+  scene.pushers.resize(1);
+  scene.start.X_HO = pose_from_finger({0.02, 0.0}, 0.0);
+  const PlanarPose goal = pose_from_finger({-0.01, -0.0252}, 0.3);
+  scene.goal->x = goal.x;
+  scene.goal->y = goal.y;
+  scene.goal->theta = goal.theta;
+  scene.goal->position_tolerance = 1e-4;
+  const Model model = prepare(scene);
+  Plan plan;
+  plan.start = plan.goal = scene.start;
+  plan.proof = find_barrier_proof(model);
+  ASSERT_EQ(plan.proof.kind, Proof::Kind::kBarrier);
+  const std::string picture = key_frames(model, film(model, plan));
+  EXPECT_EQ(count(picture, "clip-path=\"url(#within)\""), 1);
+  EXPECT_EQ(count(picture, "where the goal needs it"), 1);
+  Plan without = plan;
+  without.proof = {};
+  EXPECT_EQ(count(key_frames(model, film(model, without)), "#within"), 0);
 }
 
 TEST(KeyFrames, OnePicturePerPush) {

@@ -57,6 +57,7 @@ struct FilmPhase {
 };
 
 struct Film {
+  std::string name;  ///< on the page; of the scene
   std::vector<FilmPush> pushes;
   std::vector<FilmPhase> phases;
   std::vector<Grasp> outcomes;           ///< where members of the uncertainty ended

@@ -336,7 +336,10 @@ Json verdict_json(const Plan& plan, const Film& film) {
               {"changes", Json::array()}};
   if (plan.explanation) {
     for (const ProposedChange& change : plan.explanation->changes) {
-      out["changes"].push_back({{"what", change.what}, {"option", change.option}});
+      const std::string& pusher = change.pusher;
+      out["changes"].push_back(
+          {{"what", change.what},
+           {"option", pusher.empty() ? change.option : "pushers: - " + pusher}});
     }
   }
   return out;
@@ -355,7 +358,7 @@ std::string to_json(const Model& model, const Plan& plan, const Film& film,
                     int pad_points) {
   const Scene& scene = model.scene;
   Json out = {{"format", 1},
-              {"name", scene.name},
+              {"name", film.name},
               {"origin", scene.origin},
               {"is_plan", plan.status != PlanStatus::kNotRun},
               {"verdict", verdict_json(plan, film)},

@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kRides = 1e-9;  // [m] and [rad] that a riding object strays in P
 
+constexpr double kSheet = 1.3;  // of a sheet's width over what is rolled on
+
 /// The part of a push that was done.
 Push done_part(const Push& push, double done) {
   if (const auto* roll = std::get_if<Roll>(&push)) {
@@ -211,6 +213,18 @@ Film film(const Model& model, const Plan& plan, const FilmOptions& options) {
   }
   result.phases = phases_of(model, result, options.limits);
   return result;
+}
+
+PusherBody pusher_in(const Film& film, const Model& model, int pusher) {
+  PusherBody body =
+      pusher_body(model, model.scene.pushers[static_cast<std::size_t>(pusher)]);
+  for (const FilmPush& push : film.pushes) {
+    const auto* roll = std::get_if<Roll>(&push.push);
+    if (!roll) continue;
+    if (model.contacts[static_cast<std::size_t>(push.contact)].pusher != pusher) continue;
+    body.width = std::max(body.width, kSheet * 2.0 * std::abs(roll->travel));
+  }
+  return body;
 }
 
 }  // namespace prehensile::viewer

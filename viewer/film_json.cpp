@@ -169,7 +169,7 @@ Json pushers_json(const Model& model, const Film& film) {
   Json out = Json::array();
   for (std::size_t i = 0; i < model.scene.pushers.size(); ++i) {
     const Pusher& pusher = model.scene.pushers[i];
-    const PusherBody body = pusher_body(model, pusher);
+    const PusherBody body = pusher_in(film, model, static_cast<int>(i));
     const Stand at = stand_of(model, film, static_cast<int>(i));
     out.push_back({{"name", pusher.name},
                    {"feature", std::string(name(body.kind))},

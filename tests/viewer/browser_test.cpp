@@ -170,7 +170,7 @@ TEST(BrowserFull, HostileWordsDoNotRun) {
   FilmCase one = film_cases()[7];
   const std::string words =
       "</script><img src=x onerror=\"document.documentElement.dataset.error='ran'\">";
-  one.model.scene.name = one.model.scene.pushers[0].name = words;
+  one.film.name = one.model.scene.name = one.model.scene.pushers[0].name = words;
   expect_drawn(program, folder, "hostile",
                page(words, {to_json(one.model, one.plan, one.film)}), "#t=1");
 }

@@ -54,7 +54,9 @@ pre { font: .76rem/1.4 "JetBrains Mono", "DejaVu Sans Mono", Menlo, Consolas, mo
 .statements td:nth-child(1) { width: 25%; } .statements td:nth-child(2) { width: 8%; }
 .statements td:nth-child(4) { width: 8rem; }
 .traps td:nth-child(1) { width: 30%; }
+.objects { font-size: .86rem; }
 .objects td, .objects code { white-space: nowrap; }
+.objects th, .objects td { padding-right: .55rem; }
 .where { color: var(--soft); white-space: nowrap; }
 .confirmed, .done { color: var(--good); font-weight: 600; }
 .limits { color: var(--part); font-weight: 600; }

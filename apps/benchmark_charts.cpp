@@ -111,9 +111,11 @@ plot::Chart success_chart(const Results& results, const suite::Summary& summary)
   plot::Chart chart;
   chart.title = "Success with 95 % intervals";
   chart.x.label = "solved, of problems not proved infeasible [%]";
-  chart.y.label = "family, in the order of the table";
-  chart.y.low = -0.7;
-  chart.y.high = families - 0.3;
+  for (int family = families - 1; family >= 0; --family) {  // the first at the top
+    chart.y.names.push_back(results.families[static_cast<std::size_t>(family)].name);
+  }
+  chart.y.low = -0.6;
+  chart.y.high = families - 0.4;
   chart.height = std::clamp(120.0 + 22.0 * families, 220.0, 1500.0);
   double least = 100.0;
   for (int planner = 0; planner < planners; ++planner) {
@@ -137,11 +139,6 @@ plot::Chart success_chart(const Results& results, const suite::Summary& summary)
   const double low = std::max(0.0, 10.0 * std::floor(least / 10.0 - 1.0));
   chart.x.low = low;
   chart.x.high = 100.0 + 0.02 * (100.0 - low);
-  for (int family = 0; family < families; ++family) {
-    chart.series.emplace_back(
-        plot::Note{results.families[static_cast<std::size_t>(family)].name,
-                   {low, families - 1.0 - family}});
-  }
   return chart;
 }
 

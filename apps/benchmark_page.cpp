@@ -108,13 +108,20 @@ void add_curves(const Results& results, const Summary& summary, ReportPage& page
               "The bound is the one that the plan carries at the end.");
 }
 
+/// Messages that differ only in their ends are one reason.
+std::string shortened(const std::string& message) {
+  constexpr std::size_t kMost = 160;
+  if (message.size() <= kMost) return message;
+  return message.substr(0, std::min(kMost, message.rfind(' ', kMost))) + " ...";
+}
+
 void add_failures(const Results& results, ReportPage& page) {
   page.heading("failures", "What was not solved");
   std::map<std::tuple<int, int, RunStatus, std::string>, std::pair<int, int>> reasons;
   for (const suite::ResultRow& row : results.rows) {
     if (row.record.solved()) continue;
     auto& [count, example] = reasons[{row.key.family, row.key.planner, row.record.status,
-                                      row.record.message.substr(0, 160)}];
+                                      shortened(row.record.message)}];
     if (count++ == 0) example = row.key.problem + 1;
   }
   if (reasons.empty()) {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "apps/table.h"
+#include "plot/chart.h"
 
 namespace prehensile::apps {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 constexpr const char* kStyle = R"css(
 :root { color-scheme: light dark; --paper: #fdfdfb; --ink: #1c1e21; --soft: #5b6168;
   --line: #d9dcd6; --tint: #f2f3ee; --good: #14693f; --part: #7a5600; --bad: #a3261b; }
-@media (prefers-color-scheme: dark) { :root { --paper: #15171a; --ink: #e6e7e3;
+@media screen and (prefers-color-scheme: dark) { :root { --paper: #15171a; --ink: #e6e7e3;
   --soft: #a2a8af; --line: #363a40; --tint: #1e2125; --good: #6fce9d; --part: #e3b75a;
   --bad: #f08d80; } }
 * { box-sizing: border-box; }
@@ -27,11 +28,18 @@ nav { margin: 1.4rem 0 0; color: var(--soft); font-size: .95rem; }
 nav a { margin-right: 1.1rem; white-space: nowrap; }
 a { color: inherit; text-decoration-color: var(--soft); text-underline-offset: .2em; }
 figure { margin: 1.6rem 0; }
-figure .sheet { background: #fff; border: 1px solid var(--line); border-radius: 6px;
+figure .sheet { background: #ffffff; border: 1px solid var(--line); border-radius: 6px;
   padding: .5rem; overflow-x: auto; }
 figure svg { display: block; max-width: 100%; height: auto; margin: 0 auto; }
 figcaption { color: var(--soft); font-size: .93rem; max-width: 44rem; margin-top: .6rem; }
-.scroll { overflow-x: auto; margin: 1.2rem 0; }
+.scroll { overflow-x: auto; margin: 1.2rem 0;  /* a shade where columns go on */
+  background: linear-gradient(90deg, var(--paper) 40%, transparent) 0 0 / 2rem 100% local,
+    linear-gradient(270deg, var(--paper) 40%, transparent) 100% 0 / 2rem 100% local,
+    linear-gradient(90deg, var(--line), transparent) 0 0 / .8rem 100% scroll,
+    linear-gradient(270deg, var(--line), transparent) 100% 0 / .8rem 100% scroll;
+  background-repeat: no-repeat; }
+.scroll:has(.objects) { position: relative; left: 50%; translate: -50%;
+  width: max-content; min-width: 100%; max-width: calc(100vw - 4rem); }
 table { border-collapse: collapse; width: 100%; font-size: .93rem; line-height: 1.45; }
 th { text-align: left; font-weight: 600; color: var(--soft); white-space: nowrap; }
 th, td { padding: .5rem .7rem .5rem 0; vertical-align: top;
@@ -46,7 +54,9 @@ pre { font: .76rem/1.4 "JetBrains Mono", "DejaVu Sans Mono", Menlo, Consolas, mo
 .statements td:nth-child(1) { width: 25%; } .statements td:nth-child(2) { width: 8%; }
 .statements td:nth-child(4) { width: 8rem; }
 .traps td:nth-child(1) { width: 30%; }
+.objects { font-size: .86rem; }
 .objects td, .objects code { white-space: nowrap; }
+.objects th, .objects td { padding-right: .55rem; }
 .where { color: var(--soft); white-space: nowrap; }
 .confirmed, .done { color: var(--good); font-weight: 600; }
 .limits { color: var(--part); font-weight: 600; }
@@ -93,7 +103,7 @@ void ReportPage::paragraph(const std::string& inner) {
 
 void ReportPage::table(const std::vector<std::vector<std::string>>& rows,
                        const std::string& kind) {
-  body_ += "<div class=\"scroll\"><table";
+  body_ += "<div class=\"scroll\" tabindex=\"0\"><table";
   if (!kind.empty()) body_ += " class=\"" + kind + "\"";
   body_ += ">\n";
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -125,7 +135,12 @@ std::string ReportPage::str(const std::string& title, const std::string& lead) c
   std::string out = "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" ";
   out += "lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n";
   out += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n";
-  out += "<title>" + html(title) + "</title>\n<style>" + kStyle + "</style>\n</head>\n";
+  // The page turns dark for screens, its charts with it.
+  const std::string dark = "@media screen and (prefers-color-scheme: dark) {\n" +
+                           plot::dark_rules("figure svg") +
+                           "figure .sheet { background: var(--tint); }\n}\n";
+  out += "<title>" + html(title) + "</title>\n<style>" + kStyle + dark;
+  out += "</style>\n</head>\n";
   out += "<body>\n<main>\n<h1>" + html(title) + "</h1>\n" + lead + "<nav>";
   for (const auto& [id, words] : contents_) {
     out += "<a href=\"#" + id + "\">" + html(words) + "</a> ";

@@ -4,6 +4,7 @@
 #include <cstdarg>
 #include <cstdio>
 #include <numbers>
+#include <string_view>
 
 namespace prehensile::apps {
 namespace {
@@ -16,6 +17,25 @@ std::size_t columns(const std::string& s) {
   return static_cast<std::size_t>(std::count_if(s.begin(), s.end(), is_lead));
 }
 
+/// Rounding leaves "-0.00" of small numbers: a zero without a sign, as wide where columns
+/// are.
+void drop_signs_of_zeros(std::string& words) {
+  for (std::size_t at = words.find('-'); at != std::string::npos;
+       at = words.find('-', at + 1)) {
+    if (at > 0 && words[at - 1] != ' ' && words[at - 1] != '(') continue;
+    std::size_t end = at + 1;
+    while (end < words.size() && (words[end] == '0' || words[end] == '.')) ++end;
+    if (end == at + 1) continue;
+    constexpr std::string_view kAfter = " ,;)%\n";
+    if (end < words.size() && kAfter.find(words[end]) == std::string_view::npos) continue;
+    if (at > 1 && words[at - 1] == ' ' && words[at - 2] == ' ') {
+      words[at] = ' ';
+    } else {
+      words.erase(at, 1);
+    }
+  }
+}
+
 }  // namespace
 
 std::string text(const char* format, ...) {
@@ -24,7 +44,9 @@ std::string text(const char* format, ...) {
   char buffer[512];
   std::vsnprintf(buffer, sizeof buffer, format, args);
   va_end(args);
-  return buffer;
+  std::string words = buffer;
+  drop_signs_of_zeros(words);
+  return words;
 }
 
 double to_mm(double metres) { return 1e3 * metres; }

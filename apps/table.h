@@ -6,7 +6,7 @@
 
 namespace prehensile::apps {
 
-/// printf-style formatting into a string.
+/// printf-style formatting into a string; "-0.00" becomes "0.00".
 [[gnu::format(printf, 1, 2)]] std::string text(const char* format, ...);
 
 double to_mm(double metres);

@@ -99,6 +99,19 @@ Shown read(const Options& options, const std::string& file) {
   return shown;
 }
 
+/// Two plans of one scene are told apart by their files.
+void tell_apart(const std::vector<std::string>& files, std::vector<Shown>& shown) {
+  if (shown.size() < 2) return;
+  if (shown[0].model.scene.name != shown[1].model.scene.name) return;
+  const auto last_part = [&files](std::size_t i) {
+    return std::filesystem::path(files[i]).filename().string();
+  };
+  const bool by_folder = last_part(0) == last_part(1);
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    shown[i].file = by_folder ? files[i] : last_part(i);
+  }
+}
+
 std::string describe(const ViewFiles& out, bool agrees) {
   std::string words;
   if (!out.page.empty()) words += "page: " + out.page + '\n';
@@ -118,6 +131,7 @@ int run(const Options& options) {
     write_refusal(options.out, bad.what());
     throw;
   }
+  tell_apart(options.files, shown);
   ViewFiles out = options.out;
   if (out.page.empty() && out.frames.empty() && out.glb.empty() && out.mjcf.empty()) {
     out.page = "view.html";

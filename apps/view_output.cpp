@@ -60,7 +60,8 @@ bool write_view(const ViewFiles& files, const std::vector<Shown>& shown) {
     film.outcomes = one.outcomes;
     film.surface = one.surface;
     all_agree = all_agree && film.agrees;
-    title += (title.empty() ? "" : " | ") + one.model.scene.name;
+    film.name = one.model.scene.name + (one.file.empty() ? "" : " (" + one.file + ')');
+    title += (title.empty() ? "" : " | ") + film.name;
     films.push_back(viewer::to_json(one.model, one.plan, film, kPadPoints / parts));
   }
   write_exports(files, first);

@@ -24,6 +24,7 @@ struct Shown {
   bool is_plan = true;
   std::vector<Grasp> outcomes;           ///< ends of sampled members of the uncertainty
   std::optional<ObjectSurface> surface;  ///< of an object from a mesh, where it is known
+  std::string file;  ///< tells it apart from another one of this scene; may be empty
 };
 
 /// --view FILE, of a command that makes a plan or a push.

@@ -119,20 +119,24 @@ class Simulation {
     return pose_of(hand).inverse() * X_WO;
   }
 
-  /// Follows hand(t) for so many seconds; returns the greatest push force over a window.
+  /// Follows hand(t) for so many seconds; returns the greatest push force over a window,
+  /// of those after `unseen` [s].
   template <typename Path>
-  double follow(double seconds, const Path& hand) {
+  double follow(double seconds, const Path& hand, double unseen = 0.0) {
     const double dt = model_->opt.timestep;
     const int steps = static_cast<int>(std::ceil(seconds / dt));
+    const int skipped = std::min(steps, static_cast<int>(std::lround(unseen / dt)));
     const double averaged = std::max(kWindow, kWindowShare * seconds);
-    const int window = std::min(steps, static_cast<int>(std::lround(averaged / dt)));
+    const int window =
+        std::min(steps - skipped, static_cast<int>(std::lround(averaged / dt)));
     Vec3 sum = Vec3::Zero();
     double peak = 0.0;
     for (int k = 0; k < steps; ++k) {
       lead(hand(k * dt), hand((k + 1) * dt));
       mj_step(model_.get(), data_.get());
+      if (k < skipped) continue;
       sum += push_force();
-      if ((k + 1) % window != 0) continue;
+      if ((k + 1 - skipped) % window != 0) continue;
       peak = std::max(peak, sum.norm() / window);
       sum.setZero();
     }
@@ -190,6 +194,7 @@ class Pace {
       : ramp_(std::min(kRamp, std::max(seconds, 1e-9))), seconds_(seconds + ramp_) {}
 
   double seconds() const { return seconds_; }
+  double ramp() const { return ramp_; }
 
   double done(double t) const {
     const double u = std::clamp(t, 0.0, seconds_);
@@ -289,8 +294,9 @@ class Replayer {
       return at;
     };
     result.seconds += change_grip(grip_of(model_, planned), hand(0.0));
-    result.peak_force =
-        simulation_.follow(pace.seconds(), [&](double t) { return hand(pace.done(t)); });
+    // Not while the hand gathers speed: the pads still hold some of the last push's load.
+    result.peak_force = simulation_.follow(
+        pace.seconds(), [&](double t) { return hand(pace.done(t)); }, pace.ramp());
     result.seconds += pace.seconds();
     result.seconds += change_grip(model_.scene.gripper.grip_force, hand(1.0));
     z_WH_ = hand(1.0).z;

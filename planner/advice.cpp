@@ -17,7 +17,7 @@ constexpr double kPusherDistance = 0.1;  // [m] of a proposed pusher from the fa
 
 std::string number(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
+  std::snprintf(text, sizeof text, "%.4g", value + 0.0);  // never "-0"
   return text;
 }
 

@@ -19,11 +19,17 @@ constexpr double kKeyWidth = 24.0;
 constexpr double kLegendRow = 18.0;
 constexpr double kPadding = 0.04;
 
-const Drawing::Stroke kEdge{.colour = "#444444", .width = 1.0};
-const Drawing::Stroke kGrid{.colour = "#e4e4e4", .width = 1.0};
+const Drawing::Stroke kEdge{.colour = kEdgeInk, .width = 1.0};
+const Drawing::Stroke kGrid{.colour = kGridInk, .width = 1.0};
 
 double clamped(double size, double low, double high, double otherwise) {
   return std::isfinite(size) ? std::clamp(size, low, high) : otherwise;
+}
+
+/// `room`: for so many labels.
+Ticks ticks_along(const AxisOptions& axis, const Range& range, double room) {
+  if (!axis.names.empty()) return ticks_of(range, axis.names);
+  return ticks_of(range, std::max(2, static_cast<int>(room)));
 }
 
 /// One chart on a sheet: `index` makes its ids unique.
@@ -47,7 +53,7 @@ class Layout {
   double height() const { return height_; }
 
   std::string str() {
-    drawing_.rectangle(0.0, 0.0, width_, height_, "#ffffff", {});
+    drawing_.rectangle(0.0, 0.0, width_, height_, kPaper, {});
     draw_head();
     draw_definitions();
     if (!has_map_) draw_grid();
@@ -62,7 +68,7 @@ class Layout {
     if (is_empty_) {
       drawing_.text(frame_.left + 0.5 * frame_.width, frame_.top + 0.5 * frame_.height,
                     "nothing to draw",
-                    {.colour = "#888888", .anchor = Drawing::Anchor::kMiddle});
+                    {.colour = kFaintInk, .anchor = Drawing::Anchor::kMiddle});
     }
     return drawing_.str();
   }
@@ -106,14 +112,14 @@ class Layout {
           has_map_ ? colour_bar_width(frame_, *chart_.map, map_colours_) : 0.0;
       frame_.width = std::max(40.0, width_ - frame_.left - kMargin - 8.0 - bar);
       if (chart_.equal_scales) equalise();
-      ticks_y_ = ticks_of(frame_.y, std::max(2, static_cast<int>(frame_.height / 45.0)));
+      ticks_y_ = ticks_along(chart_.y, frame_.y, frame_.height / 45.0);
       double widest = 0.0;
       for (const Tick& tick : ticks_y_.ticks) {
         widest = std::max(widest, text_width(tick.label, kTickFont));
       }
       frame_.left = kMargin + (chart_.y.label.empty() ? 0.0 : 18.0) + widest + 8.0;
     }
-    ticks_x_ = ticks_of(frame_.x, std::max(2, static_cast<int>(frame_.width / 80.0)));
+    ticks_x_ = ticks_along(chart_.x, frame_.x, frame_.width / 80.0);
   }
 
   /// Widens the range that has fewer units per pixel.
@@ -163,7 +169,7 @@ class Layout {
     }
     if (!chart_.subtitle.empty()) {
       drawing_.text(kMargin, y + 10.0, chart_.subtitle,
-                    {.size = 11.0, .colour = "#666666"});
+                    {.size = 11.0, .colour = kSoftInk});
     }
     for (const Key& key : keys_) {
       const double middle = legend_top_ + (key.row + 0.5) * kLegendRow;
@@ -180,14 +186,15 @@ class Layout {
 
   void draw_definitions() {
     drawing_.raw("<clipPath id=\"" + id("clip") + "\">\n");
-    drawing_.rectangle(frame_.left, frame_.top, frame_.width, frame_.height, "#ffffff",
-                       {});
+    drawing_.rectangle(frame_.left, frame_.top, frame_.width, frame_.height, kPaper, {});
     drawing_.raw("</clipPath>\n");
     if (!has_map_) return;
     drawing_.raw("<pattern id=\"" + id("hatch") +
                  "\" width=\"6\" height=\"6\" patternUnits=\"userSpaceOnUse\">\n"
-                 "<rect x=\"0\" y=\"0\" width=\"6\" height=\"6\" fill=\"#f4f4f4\"/>\n"
-                 "<path d=\"M0 6 L6 0\" stroke=\"#bbbbbb\" stroke-width=\"1\" "
+                 "<rect x=\"0\" y=\"0\" width=\"6\" height=\"6\" fill=\"" +
+                 std::string(kHatchPaper) + "\"/>\n<path d=\"M0 6 L6 0\" stroke=\"" +
+                 kHatchInk +
+                 "\" stroke-width=\"1\" "
                  "fill=\"none\"/>\n</pattern>\n");
   }
 

@@ -30,6 +30,8 @@ struct AxisOptions {
   Scale scale = Scale::kLinear;
   std::optional<double> low, high;
   bool from_zero = false;  ///< the range includes zero (linear axes only)
+  std::vector<std::string>
+      names;  ///< of the values 0, 1, 2, ...: stand instead of numbers
 };
 
 /// One of eight colours that colour-blind readers can tell apart; kNext: the next one
@@ -144,6 +146,12 @@ struct Chart {
   /// A complete SVG document.
   std::string svg() const;
 };
+
+/// CSS rules that turn the charts inside `root`, a selector, for a dark page: paper, ink,
+/// edges and grid; of the colours of data only blue is lightened. They belong into
+/// `@media screen and (prefers-color-scheme: dark)`. Their variables: --tint, --ink,
+/// --soft, --line.
+std::string dark_rules(const std::string& root);
 
 /// Several charts on one sheet, row by row, `columns` >= 1 in a row.
 std::string svg_of_sheet(const std::vector<Chart>& charts, int columns);

@@ -7,6 +7,8 @@
 namespace prehensile::plot {
 namespace {
 
+constexpr const char* kBlue = "#0072b2";  // the one of the palette that is dark
+
 using Rgb = std::array<double, 3>;
 
 std::string hex_of(const Rgb& rgb) {
@@ -26,7 +28,7 @@ std::string hex(Colour colour) {
   switch (colour) {
     case Colour::kNext:
     case Colour::kBlue:
-      return "#0072b2";
+      return kBlue;
     case Colour::kOrange:
       return "#e69f00";
     case Colour::kGreen:
@@ -40,11 +42,11 @@ std::string hex(Colour colour) {
     case Colour::kYellow:
       return "#c9b800";
     case Colour::kBlack:
-      return "#222222";
+      return kInk;
     case Colour::kGrey:
-      return "#888888";
+      return kFaintInk;
   }
-  return "#222222";
+  return kInk;
 }
 
 Colour nth_colour(int n) {
@@ -52,6 +54,26 @@ Colour nth_colour(int n) {
       Colour::kBlue, Colour::kRed,    Colour::kGreen, Colour::kPurple,
       Colour::kSky,  Colour::kOrange, Colour::kYellow};
   return kOrder[static_cast<std::size_t>(n) % kOrder.size()];
+}
+
+std::string dark_rules(const std::string& root) {
+  static constexpr std::array<std::array<const char*, 2>, 9> kTurned = {
+      {{kBlue, "#2b8ed0"},
+       {kPaper, "var(--tint)"},
+       {kInk, "var(--ink)"},
+       {kEdgeInk, "var(--soft)"},
+       {kSoftInk, "var(--soft)"},
+       {kFaintInk, "var(--soft)"},
+       {kGridInk, "var(--line)"},
+       {kHatchPaper, "var(--tint)"},
+       {kHatchInk, "var(--soft)"}}};
+  std::string out;
+  for (const auto& [light, dark] : kTurned) {
+    for (const std::string part : {"fill", "stroke"}) {
+      out += root + " [" + part + "=\"" + light + "\"] { " + part + ": " + dark + "; }\n";
+    }
+  }
+  return out;
 }
 
 std::string map_colour(double share) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "plot/chart.h"
+#include "plot/svg.h"
 
 namespace prehensile::plot {
 
@@ -13,6 +14,15 @@ std::string hex(Colour colour);
 
 /// The n-th colour of series that do not choose theirs, n >= 0.
 Colour nth_colour(int n);
+
+/// What is no data: drawn on paper, in ink (svg.h) and its paler kinds.
+inline constexpr const char* kPaper = "#ffffff";
+inline constexpr const char* kEdgeInk = "#444444";
+inline constexpr const char* kSoftInk = "#666666";
+inline constexpr const char* kFaintInk = "#888888";
+inline constexpr const char* kGridInk = "#e4e4e4";
+inline constexpr const char* kHatchPaper = "#f4f4f4";
+inline constexpr const char* kHatchInk = "#bbbbbb";
 
 /// "#rrggbb" at a share of the scale, clamped to [0, 1]: dark blue over green to yellow,
 /// lightness rising all the way, so that it also reads in grey.

@@ -109,7 +109,7 @@ void draw_colour_bar(Drawing& drawing, const Frame& frame, const HeatMap& map,
                       map_colour((k + 0.5) / kShades), {});
   }
   drawing.raw("</g>\n");
-  const Drawing::Stroke edge{.colour = "#444444", .width = 1.0};
+  const Drawing::Stroke edge{.colour = kEdgeInk, .width = 1.0};
   drawing.rectangle(left, frame.top, kBarWidth, frame.height, "none", edge);
   const Ticks ticks = ticks_of(colours, bar_ticks(frame));
   double widest = 0.0;

@@ -6,6 +6,9 @@
 
 namespace prehensile::plot {
 
+/// Of words and of black series.
+inline constexpr const char* kInk = "#222222";
+
 /// With `digits` decimals, no exponent; "-0" becomes "0". Not finite or beyond 1e300:
 /// "0". Independent of the locale.
 std::string fixed(double value, int digits);
@@ -36,7 +39,7 @@ class Drawing {
   struct Font {
     double size = 12.0;
     bool bold = false;
-    std::string colour = "#222222";
+    std::string colour = kInk;
     Anchor anchor = Anchor::kStart;
     bool upright = true;  ///< false: turned to run upwards
   };

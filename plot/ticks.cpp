@@ -149,6 +149,15 @@ Ticks ticks_of(const Range& range, int wanted) {
                                     : linear_ticks(range, wanted);
 }
 
+Ticks ticks_of(const Range& range, const std::vector<std::string>& names) {
+  Ticks out;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto value = static_cast<double>(i);
+    if (value >= range.low && value <= range.high) out.ticks.push_back({value, names[i]});
+  }
+  return out;
+}
+
 std::string power_of_ten(int exponent) {
   static constexpr const char* kSuperior[] = {"⁰", "¹", "²", "³", "⁴",
                                               "⁵", "⁶", "⁷", "⁸", "⁹"};

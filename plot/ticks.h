@@ -54,6 +54,9 @@ struct Ticks {
 /// About `wanted` >= 2 labelled ticks inside the range, at round numbers.
 Ticks ticks_of(const Range& range, int wanted);
 
+/// One labelled tick at each of 0, 1, 2, ... that lies inside the range.
+Ticks ticks_of(const Range& range, const std::vector<std::string>& names);
+
 /// "x10" with the exponent in superior figures; UTF-8.
 std::string power_of_ten(int exponent);
 

@@ -3,6 +3,7 @@
 # format and lint checks too, with --full those of the tests of label `full`. Does nothing where
 # everything is there.
 set -euo pipefail
+cd "$(dirname "$0")/.."
 
 packages=(
   build-essential cmake ninja-build
@@ -19,6 +20,7 @@ packages=(
   libfccp-dev                                     # benchmarks only: tables of real pushes
   libgtest-dev libvalijson-dev                    # tests only
 )
+packages_of_node=no
 case "${1:-}" in
   "") ;;
   --lint) packages+=(clang clang-format clang-tidy git) ;;
@@ -27,11 +29,25 @@ case "${1:-}" in
       chromium            # opens the pages of the viewer
       ompl-demos          # OMPL's script reads benchmark logs
       slurm-wlm munge     # suites on a cluster of two nodes
-    ) ;;
+    )
+    # Node may be there from elsewhere; Debian's npm would not go with it.
+    if ! command -v node >/dev/null || ! command -v npm >/dev/null; then
+      packages+=(nodejs npm)
+    fi
+    packages_of_node=yes ;;
   *)
     echo "usage: install_dependencies.sh [--lint | --full]" >&2
     exit 2 ;;
 esac
+
+# The judge of GLB files, and what makes the viewer's bundle, at the versions of the lock file.
+# Their tests are skipped where there is no network.
+install_packages_of_node() {
+  if [ "$packages_of_node" = no ] || [ -d viewer/node_modules/gltf-validator ]; then return; fi
+  npm --prefix viewer ci --ignore-scripts --no-audit --no-fund || {
+    echo "note: npm could not install viewer/package-lock.json: its tests are skipped" >&2
+  }
+}
 
 missing=()
 for package in "${packages[@]}"; do
@@ -42,6 +58,7 @@ for package in "${packages[@]}"; do
   esac
 done
 if [ ${#missing[@]} -eq 0 ]; then
+  install_packages_of_node
   exit 0
 fi
 
@@ -67,3 +84,4 @@ fi
   echo "error: apt-get could not install: ${missing[*]}" >&2
   exit 1
 }
+install_packages_of_node

@@ -205,11 +205,13 @@ std::string animation_glb(const Model& model, const Film& film) {
   const double reach = reach_of(model);
   Document document;
   const int world = document.add_node("world", -1);
-  for (const Pusher& pusher : model.scene.pushers) {
+  for (std::size_t i = 0; i < model.scene.pushers.size(); ++i) {
+    const Pusher& pusher = model.scene.pushers[i];
+    const PusherBody feature = pusher_in(film, model, static_cast<int>(i));
     const int node = document.add_node(pusher.name, world);
     document.place(node, {pusher.p_WP.x(), pusher.p_WP.y(), pusher.z_WP},
                    about_z(pusher.normal_angle));
-    document.show(node, surface_of(pusher_body(model, pusher), kThickPusher * reach),
+    document.show(node, surface_of(feature, kThickPusher * reach),
                   {0.79, 0.64, 0.36, 1.0});
   }
   const int hand = document.add_node("hand", world);

@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kRides = 1e-9;  // [m] and [rad] that a riding object strays in P
 
+constexpr double kSheet = 1.3;  // of a sheet's width over what is rolled on
+
 /// The part of a push that was done.
 Push done_part(const Push& push, double done) {
   if (const auto* roll = std::get_if<Roll>(&push)) {
@@ -25,11 +27,13 @@ Push done_part(const Push& push, double done) {
   return part;
 }
 
-std::string kind_of(const Push& push) {
-  if (const auto* roll = std::get_if<Roll>(&push))
-    return kind_name(0.0, 0.0, roll->travel);
+/// A plan names its pushes by their motions, a push alone is what was asked for.
+std::string kind_of(const Push& push, bool is_plan) {
+  if (std::holds_alternative<Roll>(push)) return "roll";
   const LinearPush linear = as_linear(push);
-  return kind_name(linear.travel, linear.turn, 0.0);
+  if (is_plan) return kind_name(linear.travel, linear.turn, 0.0);
+  if (std::holds_alternative<Slide>(push)) return "slide";
+  return std::holds_alternative<Pivot>(push) ? "pivot" : "push";
 }
 
 /// The object moves with the pusher as one body, held by all points that could.
@@ -105,7 +109,7 @@ std::vector<Sample> thinned(const std::vector<Sample>& trace, std::size_t most) 
 
 FilmPush film_push(const Model& model, const Grasp& start, const Push& push,
                    const Margin& margin, int frames, const FilmOptions& options) {
-  FilmPush filmed{.push = push, .start = start, .kind = kind_of(push)};
+  FilmPush filmed{.push = push, .start = start, .kind = kind_of(push, options.is_plan)};
   filmed.contact = contact_of(push);
   const PushContact& contact = model.contacts[static_cast<std::size_t>(filmed.contact)];
   const double place = std::holds_alternative<Roll>(push) ? 0.0 : as_linear(push).place;
@@ -181,6 +185,7 @@ std::vector<FilmPhase> phases_of(const Model& model, const Film& film,
 
 Film film(const Model& model, const Plan& plan, const FilmOptions& options) {
   Film result;
+  result.name = model.scene.name;
   result.region = plan.proof.region;
   const int count = std::clamp(static_cast<int>(plan.pushes.size()), 1, options.pushes);
   const int frames = std::clamp(options.frames / count, 3, 80);
@@ -209,6 +214,18 @@ Film film(const Model& model, const Plan& plan, const FilmOptions& options) {
   }
   result.phases = phases_of(model, result, options.limits);
   return result;
+}
+
+PusherBody pusher_in(const Film& film, const Model& model, int pusher) {
+  PusherBody body =
+      pusher_body(model, model.scene.pushers[static_cast<std::size_t>(pusher)]);
+  for (const FilmPush& push : film.pushes) {
+    const auto* roll = std::get_if<Roll>(&push.push);
+    if (!roll) continue;
+    if (model.contacts[static_cast<std::size_t>(push.contact)].pusher != pusher) continue;
+    body.width = std::max(body.width, kSheet * 2.0 * std::abs(roll->travel));
+  }
+  return body;
 }
 
 }  // namespace prehensile::viewer

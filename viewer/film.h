@@ -11,6 +11,7 @@
 #include "planner/replay.h"
 #include "primitives/motion_cone.h"
 #include "scene/object_surface.h"
+#include "viewer/bodies.h"
 #include "viewer/contact_loads.h"
 
 namespace prehensile::viewer {
@@ -57,6 +58,7 @@ struct FilmPhase {
 };
 
 struct Film {
+  std::string name;  ///< on the page; of the scene
   std::vector<FilmPush> pushes;
   std::vector<FilmPhase> phases;
   Loops region;  ///< of a refusal by a barrier: places of the finger axis in O
@@ -78,5 +80,9 @@ struct FilmOptions {
 
 /// Replays the pushes of a plan one after the other, to the first that does not complete.
 Film film(const Model& model, const Plan& plan, const FilmOptions& options = {});
+
+/// A pusher as it is drawn. A line that an object rolls over stands for a sheet that lies
+/// under it all the way: it has that width.
+PusherBody pusher_in(const Film& film, const Model& model, int pusher);
 
 }  // namespace prehensile::viewer

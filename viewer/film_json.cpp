@@ -169,7 +169,7 @@ Json pushers_json(const Model& model, const Film& film) {
   Json out = Json::array();
   for (std::size_t i = 0; i < model.scene.pushers.size(); ++i) {
     const Pusher& pusher = model.scene.pushers[i];
-    const PusherBody body = pusher_body(model, pusher);
+    const PusherBody body = pusher_in(film, model, static_cast<int>(i));
     const Stand at = stand_of(model, film, static_cast<int>(i));
     out.push_back({{"name", pusher.name},
                    {"feature", std::string(name(body.kind))},
@@ -336,7 +336,10 @@ Json verdict_json(const Plan& plan, const Film& film) {
               {"changes", Json::array()}};
   if (plan.explanation) {
     for (const ProposedChange& change : plan.explanation->changes) {
-      out["changes"].push_back({{"what", change.what}, {"option", change.option}});
+      const std::string& pusher = change.pusher;
+      out["changes"].push_back(
+          {{"what", change.what},
+           {"option", pusher.empty() ? change.option : "pushers: - " + pusher}});
     }
   }
   return out;
@@ -355,7 +358,7 @@ std::string to_json(const Model& model, const Plan& plan, const Film& film,
                     int pad_points) {
   const Scene& scene = model.scene;
   Json out = {{"format", 1},
-              {"name", scene.name},
+              {"name", film.name},
               {"origin", scene.origin},
               {"is_plan", plan.status != PlanStatus::kNotRun},
               {"verdict", verdict_json(plan, film)},

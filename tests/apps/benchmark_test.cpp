@@ -149,6 +149,9 @@ TEST_F(BenchmarkCommand, RunsAndReports) {
     EXPECT_NE(page.find(part), std::string::npos) << part;
   }
   EXPECT_EQ(plot::testing::fault_of_svg(page.substr(page.find('\n') + 1)), "");
+  // The axis of the success chart says the families in words.
+  EXPECT_NE(page.find("text-anchor=\"end\">boxes</text>"), std::string::npos);
+  EXPECT_NE(page.find("prefers-color-scheme: dark"), std::string::npos);
   for (const char* outside : {"src=", "@import", "<link", "<script", "url(http"}) {
     EXPECT_EQ(page.find(outside), std::string::npos) << outside;
   }

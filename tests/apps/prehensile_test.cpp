@@ -62,6 +62,15 @@ TEST(Program, ReferenceSaysWhyTheCircularCertificateRejectsIt) {
       << instant.out;
 }
 
+/// Rounding leaves signs of zeros, which say nothing; those of numbers stay.
+TEST(Program, ZerosHaveNoSign) {
+  const Outcome out = run_program("query instant problems/paper/slide.yaml");
+  EXPECT_EQ(out.exit_code, 0);
+  EXPECT_EQ(out.out.find("-0.0000"), std::string::npos) << out.out;
+  EXPECT_NE(out.out.find("-0.9098"), std::string::npos);
+  EXPECT_NE(out.out.find("-14.7150"), std::string::npos);
+}
+
 TEST(Program, NamesTheFirstWordThatItDoesNotKnow) {
   const Outcome outcome =
       run_program("query instant problems/paper/slide.yaml --sketch out.svg --loud");

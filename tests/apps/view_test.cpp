@@ -30,10 +30,13 @@ TEST_F(ViewTest, WritesPagesAndPictures) {
   EXPECT_TRUE(holds(read_text(page_), "<title>tee 21</title>"));
   const std::string picture = folder_.path("plan.svg").string();
   const std::string other = folder_.path("other.html").string();
-  const Outcome both = run_program("view " + plan_ + ' ' + plan_ + " --samples 20 -o " +
+  const std::string copy = folder_.path("copy.json").string();
+  std::filesystem::copy_file(plan_, copy);
+  const Outcome both = run_program("view " + plan_ + ' ' + copy + " --samples 20 -o " +
                                    other + " --frames " + picture);
   EXPECT_EQ(both.exit_code, 0) << both.err;
-  EXPECT_TRUE(holds(read_text(other), "<title>tee 21 | tee 21</title>"));
+  EXPECT_TRUE(
+      holds(read_text(other), "<title>tee 21 (plan.json) | tee 21 (copy.json)</title>"));
   EXPECT_TRUE(holds(read_text(picture), "2. push by floor"));
   // The picture alone, and the same picture again.
   const std::string again = folder_.path("again.svg").string();
@@ -50,6 +53,11 @@ TEST_F(ViewTest, ShowsScenesAndPushes) {
   EXPECT_EQ(push.exit_code, 0) << push.err;
   EXPECT_EQ(push.out.front(), '{');
   EXPECT_TRUE(holds(read_text(page_), "\"kind\":\"slide\""));
+  // The same motion asked for as a push is not guarded, and no slide.
+  const Outcome general = run_program(
+      "query push problems/paper/slide.yaml --kind push --travel-mm 15 --view " + page_);
+  EXPECT_EQ(general.exit_code, 0) << general.err;
+  EXPECT_TRUE(holds(read_text(page_), "\"kind\":\"push\""));
 }
 
 TEST_F(ViewTest, AnswersInJsonAndTakesOverridesOfScenes) {

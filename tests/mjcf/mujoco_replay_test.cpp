@@ -152,6 +152,24 @@ TEST(MujocoReplay, PushesOfManyKindsEndAlike) {
 
 /// A can rolls by travel over radius and stays where it is, whichever way the table goes;
 /// the force is that of the cross-section.
+/// A push that goes on from a harder one finds the pads loaded, which is not its force.
+TEST(MujocoReplay, ThePushBeforeIsNotCounted) {
+  const Model model = prepare(bar_scene());
+  Plan plan = plan_of(model, LinearPush{.contact = 0, .e = kX, .travel = 3e-3});
+  const LinearPush turning{.contact = 0, .e = kX, .travel = 2e-3, .turn = 0.5};
+  const Grasp between = plan.pushes[0].end;
+  const Transition done = apply(model, between, turning);
+  ASSERT_TRUE(done.completed()) << name(done.status) << ' ' << done.reason;
+  ASSERT_LT(done.max_push_force, 0.8 * plan.pushes[0].push_force);
+  plan.pushes.push_back({.push = turning,
+                         .start = between,
+                         .end = done.end,
+                         .push_force = done.max_push_force});
+  const MujocoReplay replay = mujoco_replay(model, plan, {.speed = 2e-3});
+  ASSERT_EQ(replay.pushes.size(), 2U);
+  for (const MujocoPush& push : replay.pushes) EXPECT_NEAR(push.force_error, 0.0, 0.01);
+}
+
 TEST(MujocoReplay, ACanRollsByTravelOverRadius) {
   const Model model =
       prepare(read_scene(kSourceTree / "problems" / "paper/roll.yaml").scene,

@@ -49,6 +49,47 @@ TEST(Chart, IsWellFormedAndShowsEverySeries) {
   EXPECT_EQ(svg.find("nothing to draw"), std::string::npos);
 }
 
+TEST(Chart, NamesStandInsteadOfNumbers) {
+  Chart chart{.series = {Scatter{.points = {{1.0, 0.0}, {2.0, 1.0}, {3.0, 2.0}}}}};
+  chart.y.names = {"low", "middle", "high", "beyond the data"};
+  const std::string svg = chart.svg();
+  EXPECT_EQ(fault_of_svg(svg), "");
+  const auto height_of = [&svg](const std::string& name) {
+    const std::size_t text = svg.find('>' + name + "</text>");
+    EXPECT_NE(text, std::string::npos) << name;
+    const std::size_t y = svg.rfind(" y=\"", text);
+    return std::stod(svg.substr(y + 4));
+  };
+  EXPECT_GT(height_of("low"), height_of("middle"));
+  EXPECT_GT(height_of("middle"), height_of("high"));
+  EXPECT_EQ(svg.find("beyond the data"), std::string::npos);
+}
+
+/// Every grey of a chart, found in its text, has a rule for dark pages.
+TEST(Chart, DarkRulesLeaveNoGreyOut) {
+  Chart chart{.title = "title", .subtitle = "small print", .series = one_of_each({})};
+  chart.map = HeatMap{.label = "map",
+                      .x = {0.0, 1.0},
+                      .y = {0.0, 1.0},
+                      .values = {0.0, 1.0, 2.0, kNan},
+                      .blank = "blank"};
+  Chart empty;
+  Chart lines{.series = one_of_each({{0.0, 1.0}, {1.0, 3.0}})};
+  const std::string svg = chart.svg() + empty.svg() + lines.svg();
+  const std::string rules = dark_rules("figure");
+  int greys = 0;
+  for (std::size_t at = svg.find("\"#"); at != std::string::npos;
+       at = svg.find("\"#", at + 1)) {
+    const std::string colour = svg.substr(at + 2, 6);
+    if (colour.substr(0, 2) != colour.substr(2, 2)) continue;
+    if (colour.substr(0, 2) != colour.substr(4, 2)) continue;
+    ++greys;
+    EXPECT_NE(rules.find("figure [fill=\"#" + colour), std::string::npos) << colour;
+    EXPECT_NE(rules.find("figure [stroke=\"#" + colour), std::string::npos) << colour;
+  }
+  EXPECT_GT(greys, 40);
+}
+
 TEST(Chart, TheReaderOfTheTestsFindsFaults) {
   for (const char* bad : {"<a>", "<a></b>", "<a b=1/>", "<a>&</a>", "<a x=\"nan\"/>",
                           "<a/><b/>", "", "<a x=\"1\" x=\"2\"/>"}) {

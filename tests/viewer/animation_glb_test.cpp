@@ -3,10 +3,14 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/command.h"
+#include "tests/support/folder.h"
 #include "tests/viewer/film_cases.h"
 #include "viewer/film_state.h"
 #include "viewer/surfaces.h"
@@ -147,6 +151,35 @@ TEST(AnimationGlb, ASceneAloneStandsStill) {
   const Glb glb(animation_glb(model, {}));
   EXPECT_FALSE(glb.tree.contains("animations"));
   EXPECT_EQ(glb.tree.at("meshes").size(), model.scene.pushers.size() + 3);
+}
+
+/// The judge is Khronos' own: an npm package, in viewer/node_modules where it is there.
+TEST(AnimationGlbFull, PassesTheKhronosValidator) {
+  const std::filesystem::path room = testing::kSourceTree / "viewer";
+  if (testing::run("command -v node").status != 0 ||
+      !std::filesystem::exists(room / "node_modules/gltf-validator")) {
+    GTEST_SKIP() << "no gltf-validator: cd viewer && npm ci";
+  }
+  const testing::Folder folder;
+  const auto validated = [&](const std::string& name, const std::string& bytes) {
+    const std::filesystem::path file = folder / name;
+    std::ofstream(file, std::ios::binary) << bytes;
+    return testing::run("node '" + (room / "validate.mjs").string() + "' '" +
+                        file.string() + "' 2>&1");
+  };
+  int number = 0;
+  for (const FilmCase& one : film_cases()) {
+    const std::string name = std::to_string(number++) + ".glb";
+    const testing::Ended ended = validated(name, animation_glb(one.model, one.film));
+    EXPECT_EQ(ended.status, 0) << one.what << ": " << ended.out;
+    EXPECT_NE(ended.out.find(": 0 errors, 0 warnings"), std::string::npos) << one.what;
+  }
+  // It does find faults: accessors of an unknown type, of the same length.
+  std::string wrong = animation_glb(film_cases()[0].model, film_cases()[0].film);
+  const std::size_t type = wrong.find("\"VEC3\"");
+  ASSERT_NE(type, std::string::npos);
+  wrong.replace(type, 6, "\"VEC5\"");
+  EXPECT_NE(validated("wrong.glb", wrong).status, 0);
 }
 
 #endif

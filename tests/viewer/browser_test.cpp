@@ -1,6 +1,5 @@
 /// Pages in a real browser, where there is one: no error, and something is drawn.
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -9,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/command.h"
 #include "tests/support/folder.h"
 #include "tests/viewer/film_cases.h"
 #include "viewer/film_json.h"
@@ -18,27 +18,11 @@ namespace prehensile::viewer {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::Ended;
 using testing::film_cases;
 using testing::FilmCase;
 using testing::Folder;
-
-struct Ended {
-  std::string out;
-  int status = -1;  ///< as pclose tells
-};
-
-/// Everything that a command prints, and how it ended.
-Ended run(const std::string& command) {
-  Ended ended;
-  FILE* const pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return ended;
-  std::array<char, 4096> part{};
-  while (const std::size_t read = std::fread(part.data(), 1, part.size(), pipe)) {
-    ended.out.append(part.data(), read);
-  }
-  ended.status = pclose(pipe);
-  return ended;
-}
+using testing::run;
 
 std::string browser() {
   for (const char* name : {"chromium", "chromium-browser", "google-chrome"}) {
@@ -113,7 +97,6 @@ TEST(BrowserFull, OpensEveryKindOfPage) {
   EXPECT_NE(opened(program, folder, text, "").find("No plan: "), std::string::npos);
 }
 
-/// Keys do what the page says they do.
 /// Scene files below problems/, from there.
 std::vector<std::string> shipped_scenes() {
   const fs::path root = testing::kSourceTree / "problems";
@@ -146,6 +129,7 @@ TEST_P(ShippedScenesFull, OpenWithoutAnError) {
 }
 INSTANTIATE_TEST_SUITE_P(Eighths, ShippedScenesFull, ::testing::Range(0, 8));
 
+/// Keys do what the page says they do.
 TEST(BrowserFull, ObeysKeys) {
   const std::string program = browser();
   if (program.empty()) GTEST_SKIP() << "no chromium on this machine";
@@ -186,7 +170,7 @@ TEST(BrowserFull, HostileWordsDoNotRun) {
   FilmCase one = film_cases()[7];
   const std::string words =
       "</script><img src=x onerror=\"document.documentElement.dataset.error='ran'\">";
-  one.model.scene.name = one.model.scene.pushers[0].name = words;
+  one.film.name = one.model.scene.name = one.model.scene.pushers[0].name = words;
   expect_drawn(program, folder, "hostile",
                page(words, {to_json(one.model, one.plan, one.film)}), "#t=1");
 }

@@ -146,6 +146,21 @@ TEST(Film, ThePusherTouchesAndDoesNotCutTheObject) {
   EXPECT_GT(frames, 200);
 }
 
+/// The pusher moves along z while an object rolls: its force must not leave it behind.
+TEST(Film, RollsStayOnTheSheet) {
+  int points = 0;
+  for_each_frame([&](const FilmCase& one, const FilmPush& push, const FilmFrame& frame) {
+    if (push.kind != "roll") return;
+    const int pusher = contact_of_push(one, push).pusher;
+    const double half = 0.5 * pusher_in(one.film, one.model, pusher).width;
+    for (const PointLoad& load : frame.loads.pusher) {
+      EXPECT_LT(std::abs(load.p.z() - frame.z_HP), half);
+      ++points;
+    }
+  });
+  EXPECT_GT(points, 50);
+}
+
 TEST(Film, ForcesStandAtContactsAndLieInTheirCones) {
   for_each_frame([](const FilmCase& one, const FilmPush& push, const FilmFrame& frame) {
     const PushContact& contact = contact_of_push(one, push);

@@ -160,7 +160,7 @@ TEST(Page, HostileWordsStayWords) {
   const std::string harmless = page("x", {to_json(plain.model, plain.plan, plain.film)});
   for (const std::string& words : hostile) {
     FilmCase one = plain;
-    one.model.scene.name = one.model.scene.origin = words;
+    one.film.name = one.model.scene.name = one.model.scene.origin = words;
     one.model.scene.gripper.name = words;
     one.model.scene.pushers[0].name = words;
     one.plan.message = one.plan.proof.text = one.film.why = words;

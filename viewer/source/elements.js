@@ -17,6 +17,9 @@ function filled(node, attributes, children) {
   return node;
 }
 
-export const mm = (metres) => `${(1e3 * metres).toFixed(2)} mm`;
-export const deg = (radians) => `${((180 / Math.PI) * radians).toFixed(1)}°`;
-export const newton = (force) => (force === null ? 'none' : `${force.toFixed(2)} N`);
+/// Without the sign of what rounds to zero.
+const fixed = (value, digits) => value.toFixed(digits).replace(/^-(?=[0.]*$)/, '');
+
+export const mm = (metres) => `${fixed(1e3 * metres, 2)} mm`;
+export const deg = (radians) => `${fixed((180 / Math.PI) * radians, 1)}°`;
+export const newton = (force) => (force === null ? 'none' : `${fixed(force, 2)} N`);

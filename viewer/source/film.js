@@ -55,9 +55,9 @@ export class Film {
 
   /// Whether there is anything of a layer.
   has(layer) {
-    const {outcomes, obstacles, limits} = this.data;
+    const {outcomes, obstacles, limits, pushes} = this.data;
     if (layer === 'outcomes') return outcomes.length > 0;
-    return layer !== 'confines' || obstacles !== null || limits !== null;
+    return layer === 'confines' ? obstacles !== null || limits !== null : pushes.length > 0;
   }
 
   #mostForce() {

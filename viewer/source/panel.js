@@ -13,6 +13,22 @@ function poseText([x, y, theta, psi]) {
   return `x ${mm(x)}, y ${mm(y)}, ${deg(theta)}${roll}`;
 }
 
+/// A direction in the hand, by the axes that it has at least 22.5 deg of.
+function towards(v) {
+  const length = Math.hypot(...v);
+  return v.map((part, i) => (Math.abs(part) > 0.38 * length ? `${part < 0 ? '−' : '+'}${'xyz'[i]}` : ''))
+    .filter((axis) => axis).join(' ');
+}
+
+/// What a point of contact with the pusher does: it sticks, or the object slips on the pusher.
+function contactText({mode, force, n, slip}) {
+  if (mode === 'open') return 'apart';
+  const normal = newton(force.reduce((sum, f, i) => sum + f * n[i], 0));
+  if (mode === 'stick') return `sticks, normal force ${normal}`;
+  const way = slip.some((part) => part !== 0) ? ` towards ${towards(slip)} of the hand` : '';
+  return `the object slips along the pusher${way}, normal force ${normal}`;
+}
+
 function facts(rows) {
   const cells = rows.flatMap(([name, value]) => [element('dt', {}, name), element('dd', {}, value)]);
   return element('dl', {}, ...cells);
@@ -87,10 +103,7 @@ export class Moment {
     }
     if (frame) {
       rows.push(['push force', newton(frame.push_force)]);
-      for (const load of frame.pusher) {
-        const normal = load.force.reduce((sum, f, i) => sum + f * load.n[i], 0);
-        rows.push([`contact ${load.mode}`, `${newton(normal)} normal`]);
-      }
+      frame.pusher.forEach((load, i) => rows.push([`contact ${i + 1}`, contactText(load)]));
       if (frame.slack !== null) rows.push(['slack', frame.slack.toFixed(4)]);
       rows.push(['instant', `${frame.status}${push.in_space ? ', in space' : ''}`]);
       if (frame.certificate !== null) rows.push(['certificate', frame.certificate.toExponential(1)]);

@@ -158,9 +158,16 @@ export class Stage {
   look(view) {
     const [x, y, z] = kViews[view].map((value) => 3.3 * this.#seen() * value);
     this.controls.target.set(0, 0, 0);
-    this.camera.position.set(x, y, z);
+    this.camera.position.set(x * this.#sideOfPusher(), y, z);
     this.controls.update();
     this.render();
+  }
+
+  /// -1 where the first pusher stands at smaller x: a short one would be hidden from the other side.
+  #sideOfPusher() {
+    const {pushes: [push], pushers: [pusher]} = this.film.data;
+    const angle = push ? Math.atan2(push.n_P[1], push.n_P[0]) + push.frames[0].X_HP[2] : pusher?.normal_angle ?? 0;
+    return Math.cos(angle) > 0.1 ? -1 : 1;
   }
 
   /// How far the picture reaches: around the object, or, where nothing is pushed, all pushers.

@@ -12,6 +12,9 @@
 namespace prehensile::apps {
 namespace {
 
+/// Rows of the table, about: every fifth slice of as many as there are by default.
+constexpr std::size_t kRows = 36;
+
 std::string ranges_text(const std::vector<DirectionRange>& ranges) {
   std::string out;
   for (const DirectionRange& range : ranges) {
@@ -178,7 +181,8 @@ std::string describe(const ConeReport& report) {
          ranges_text(cone.robust) + '\n';
   if (!cone.is_point) {
     Table table({"direction deg", "turning deg/mm", "robust deg/mm"});
-    for (std::size_t i = 0; i < cone.slices.size(); i += 5) {
+    const std::size_t stride = std::max<std::size_t>(1, cone.slices.size() / kRows);
+    for (std::size_t i = 0; i < cone.slices.size(); i += stride) {
       const ConeSlice& slice = cone.slices[i];
       if (slice.nominal.empty()) continue;
       table.add({text("%.0f", to_deg(slice.direction)), rates_text(slice.nominal),

@@ -31,6 +31,7 @@ struct Options {
   std::uint64_t seed = 1;
   int check = 2000;
   int points = 16;
+  int slices = 181;
   std::string csv;
   std::string plot;
 };
@@ -61,7 +62,7 @@ std::vector<BoxPoint> points_of(const Options& options, const UncertaintyBox& bo
 
 /// The cone of the pad plane, and its check.
 void answer_in_plane(const std::vector<BoxPoint>& points, const ConeQuestion& question,
-                     const ConeMember& nominal, ConeReport& report) {
+                     const ConeMember& nominal, int slices, ConeReport& report) {
   std::vector<ConeMember> members;
   for (const BoxPoint& at : points) {
     const CompiledMember member =
@@ -70,12 +71,12 @@ void answer_in_plane(const std::vector<BoxPoint>& points, const ConeQuestion& qu
     if (member.usable) members.push_back(member.member);
   }
   report.unusable = static_cast<int>(points.size() - members.size());
-  report.cone = motion_cone(nominal, members);
+  report.cone = motion_cone(nominal, members, slices);
   report.check = check_cone(question, nominal, members);
 }
 
 void answer_in_space(const std::vector<BoxPoint>& points, const ConeQuestion& question,
-                     const ConeMember& nominal, ConeReport& report) {
+                     const ConeMember& nominal, int slices, ConeReport& report) {
   std::vector<SpaceMember> members;
   for (const BoxPoint& at : points) {
     std::optional<SpaceMember> member =
@@ -85,7 +86,7 @@ void answer_in_space(const std::vector<BoxPoint>& points, const ConeQuestion& qu
   }
   report.unusable = static_cast<int>(points.size() - members.size());
   report.cone = cone_in_space(question.model, question.grasp, question.contact,
-                              question.place, motion_cone(nominal, {}), members);
+                              question.place, motion_cone(nominal, {}, slices), members);
   report.check = check_cone_in_space(question, report.cone);
 }
 
@@ -119,9 +120,9 @@ int run(const Options& options) {
                               .count = options.check};
   const std::vector<BoxPoint> points = points_of(options, report.box);
   if (report.in_space) {
-    answer_in_space(points, question, nominal, report);
+    answer_in_space(points, question, nominal, options.slices, report);
   } else {
-    answer_in_plane(points, question, nominal, report);
+    answer_in_plane(points, question, nominal, options.slices, report);
   }
   if (!options.csv.empty()) write_atomically(options.csv, to_csv(report));
   if (!options.plot.empty()) write_atomically(options.plot, to_svg(report));
@@ -151,6 +152,12 @@ Command add_query_cone(CLI::App& query) {
       .add_option("--check", options->check,
                   "motions that are asked as instants, to judge the cone")
       ->check(CLI::Range(0, 1000000))
+      ->capture_default_str();
+  command
+      .add_option("--slices", options->slices,
+                  "directions over the whole turn in which a line's rates of turn are "
+                  "sought; in space each takes its time")
+      ->check(CLI::Range(2, 3601))
       ->capture_default_str();
   command.add_option("--points", options->points, "contact points per pad")
       ->check(CLI::IsMember({1, 4, 8, 16, 32, 64}))

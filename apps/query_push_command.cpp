@@ -29,6 +29,7 @@ struct Options {
   PathOptions path;
   bool grip_range = false;
   double grip_tolerance_mm = 1.0;
+  int grip_places = GripRangeOptions{}.samples;
   std::string view;
   std::string mjcf;
 };
@@ -132,6 +133,7 @@ nlohmann::ordered_json to_json(const Transition& transition,
 int run_grip_range(const Options& options, const Model& model, const Push& push) {
   GripRangeOptions wanted;
   wanted.tolerance = 1e-3 * options.grip_tolerance_mm;
+  wanted.samples = options.grip_places;
   wanted.transition.tolerance =
       std::min(1e-6 * options.path.tolerance_um, 0.01 * wanted.tolerance);
   const GripRange range =
@@ -198,6 +200,12 @@ Command add_query_push(CLI::App& query) {
       .add_option("--grip-tolerance-mm", options->grip_tolerance_mm,
                   "how far from there it may end (--grip-range)")
       ->check(CLI::Range(1e-6, 1e3))
+      ->capture_default_str();
+  command
+      .add_option("--grip-places", options->grip_places,
+                  "steps between the places along the push whose needs are shown "
+                  "(--grip-range)")
+      ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   add_view_option(command, options->view);
   add_mjcf_option(command, options->mjcf);

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "primitives/border.h"
 #include "primitives/spatial_push_instant.h"
 
 namespace prehensile {
@@ -26,6 +27,10 @@ constexpr double kRobustEdge = 1e-6;  // [rad] of angle or direction
 constexpr double kMostNear = 0.02;
 constexpr int kScanNear = 6;
 constexpr double kNarrow = 1e-3;
+
+/// Margin that an edge of the robust cone keeps with the member that sets it: half of
+/// what counts as none, so that the edge sticks however it is rounded.
+constexpr double kRobustMargin = 5e-8;
 
 /// Places in a range of which both ends slip with a member.
 constexpr int kScanInside = 10;
@@ -56,10 +61,7 @@ double least_place(const Margin& margin, double sign, double low, double high) {
   return at_x < at_y ? x : y;
 }
 
-struct Looked {
-  double at = 0.0;  ///< atan(c omega / speed)
-  double margin = -1.0;
-};
+using Looked = MarginAt;  ///< at atan(c omega / speed)
 
 /// The margin over the rates of turn, ascending: over the whole range, more closely where
 /// it is close to zero, and where it turns back there without being seen to cross it.
@@ -94,12 +96,8 @@ std::vector<Looked> scanned(const Margin& margin) {
 /// The rates of turn [rad/m] for which `margin(atan(c omega / speed))` is not negative.
 template <class Margin>
 KappaSet rates_where(const Margin& margin, double c) {
-  const auto edge = [&](double inside, double outside) {
-    while (std::abs(outside - inside) > kEdge) {
-      const double middle = 0.5 * (inside + outside);
-      (margin(middle) >= 0.0 ? inside : outside) = middle;
-    }
-    return std::tan(inside) / c;
+  const auto edge = [&](const Looked& inside, const Looked& outside) {
+    return std::tan(border(margin, inside, outside, kEdge)) / c;
   };
   const std::vector<Looked> scan = scanned(margin);
   std::vector<KappaSet::Interval> found;
@@ -107,9 +105,9 @@ KappaSet rates_where(const Margin& margin, double c) {
   for (std::size_t k = 1; k < scan.size(); ++k) {
     const bool was_inside = scan[k - 1].margin >= 0.0;
     const bool inside = scan[k].margin >= 0.0;
-    if (inside && !was_inside) low = edge(scan[k].at, scan[k - 1].at);
+    if (inside && !was_inside) low = edge(scan[k], scan[k - 1]);
     if (was_inside && (!inside || k + 1 == scan.size())) {
-      found.push_back({low, inside ? kInfinity : edge(scan[k - 1].at, scan[k].at)});
+      found.push_back({low, inside ? kInfinity : edge(scan[k - 1], scan[k])});
     }
   }
   KappaSet set;
@@ -128,38 +126,34 @@ KappaSet rates_where(const Margin& margin, double c) {
 
 /// What of a range that held so far holds still, looked at in its ends and, where these
 /// fail, inside.
-template <class Holds>
-std::optional<DirectionRange> narrowed(const DirectionRange& range, const Holds& holds) {
-  const bool at_lo = holds(range.lo);
-  const bool at_hi = holds(range.hi);
-  if (at_lo && at_hi) return range;
-  double inside = at_lo ? range.lo : range.hi;
-  if (!at_lo && !at_hi) {
-    int k = 1;
-    const auto place = [&] { return range.lo + (range.hi - range.lo) * k / kScanInside; };
-    while (k < kScanInside && !holds(place())) ++k;
+template <class Margin>
+std::optional<DirectionRange> narrowed(const DirectionRange& range,
+                                       const Margin& margin) {
+  const auto look = [&](double at) { return Looked{at, margin(at)}; };
+  const auto holds = [](const Looked& looked) { return looked.margin >= 0.0; };
+  const Looked lo = look(range.lo);
+  const Looked hi = look(range.hi);
+  if (holds(lo) && holds(hi)) return range;
+  Looked inside = holds(lo) ? lo : hi;
+  for (int k = 1; !holds(inside); ++k) {
     if (k == kScanInside) return {};
-    inside = place();
+    inside = look(range.lo + (range.hi - range.lo) * k / kScanInside);
   }
-  const auto edge = [&](double outside) {
-    double held = inside;
-    while (std::abs(outside - held) > kRobustEdge) {
-      const double middle = 0.5 * (held + outside);
-      (holds(middle) ? held : outside) = middle;
-    }
-    return held;
+  const auto safe = [&](double at) { return margin(at) - kRobustMargin; };
+  const auto edge = [&](const Looked& outside) {
+    return inside.margin > kRobustMargin ? border(safe, inside, outside, kRobustEdge)
+                                         : inside.at;
   };
-  return DirectionRange{at_lo ? range.lo : edge(range.lo),
-                        at_hi ? range.hi : edge(range.hi)};
+  return DirectionRange{holds(lo) ? range.lo : edge(lo), holds(hi) ? range.hi : edge(hi)};
 }
 
-/// What of these ranges holds with every member; `holds(member, at)`. A member that
+/// What of these ranges holds with every member; `margin(member, at)`. A member that
 /// leaves gaps may not hold at the edge that a later one gave, so members are asked again
 /// until none moves an edge.
-template <class Holds>
+template <class Margin>
 std::vector<DirectionRange> robust_part(const std::vector<DirectionRange>& ranges,
                                         const std::vector<SpaceMember>& members,
-                                        const Holds& holds) {
+                                        const Margin& margin) {
   std::vector<DirectionRange> left;
   for (const DirectionRange& range : ranges) {
     std::optional<DirectionRange> now = range;
@@ -167,7 +161,7 @@ std::vector<DirectionRange> robust_part(const std::vector<DirectionRange>& range
     std::size_t agree = 0;
     for (std::size_t i = 0; now && agree < members.size(); i = (i + 1) % members.size()) {
       const DirectionRange before = *now;
-      now = narrowed(before, [&](double at) { return holds(members[i], at); });
+      now = narrowed(before, [&](double at) { return margin(members[i], at); });
       const bool moved = now && (now->lo != before.lo || now->hi != before.hi);
       agree = moved ? 1 : agree + 1;
     }
@@ -203,8 +197,8 @@ SpatialVerdict sticks_in_space(const Model& model, const Grasp& grasp, int conta
   switch (stop.status) {
     case TransitionStatus::kNotRun:
       verdict.is_known = true;
-      verdict.margin = instant.margin(seat, Regime::kStick).least();
-      if (std::abs(verdict.margin) < instant.noise()) verdict.margin = 0.0;
+      // What is none up to the noise sticks.
+      verdict.margin = instant.margin(seat, Regime::kStick).least() + instant.noise();
       break;
     case TransitionStatus::kPusherLost:
     case TransitionStatus::kLeavesPlane:
@@ -246,10 +240,9 @@ MotionCone cone_in_space(const Model& model, const Grasp& grasp, int contact,
                            std::tan(turn) / flat.c)
         .margin;
   };
-  const auto member_sticks = [&](const SpaceMember& member, double direction,
+  const auto member_margin = [&](const SpaceMember& member, double direction,
                                  double turn) {
-    return sticks_in_space(member, contact, direction, std::tan(turn) / flat.c).margin >=
-           0.0;
+    return sticks_in_space(member, contact, direction, std::tan(turn) / flat.c).margin;
   };
   MotionCone cone = flat;
   cone.members = static_cast<int>(members.size());
@@ -257,7 +250,7 @@ MotionCone cone_in_space(const Model& model, const Grasp& grasp, int contact,
       ranges_where([&](double direction) { return margin(direction, 0.0) >= 0.0; });
   cone.robust = robust_part(cone.nominal, members,
                             [&](const SpaceMember& member, double direction) {
-                              return member_sticks(member, direction, 0.0);
+                              return member_margin(member, direction, 0.0);
                             });
   for (ConeSlice& slice : cone.slices) {
     slice.nominal =
@@ -268,7 +261,7 @@ MotionCone cone_in_space(const Model& model, const Grasp& grasp, int contact,
       turns.push_back({turn_of(rates.lo, flat.c), turn_of(rates.hi, flat.c)});
     }
     turns = robust_part(turns, members, [&](const SpaceMember& member, double turn) {
-      return member_sticks(member, slice.direction, turn);
+      return member_margin(member, slice.direction, turn);
     });
     slice.robust = {};
     for (const DirectionRange& turn : turns) {

@@ -50,10 +50,13 @@ double slack_of(const Model& model, const LinearPush& push, const PlanarPose& X_
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < (is_path ? kPathSamples : 1); ++k) {
     const double s = k / (kPathSamples - 1.0);
+    if (instant.solve(seat, s, Vec2::Zero())) return kNoMotionInSpace;
+    least = std::min(least, instant.margin(seat, Regime::kStick).least());
+    // Further motions are of interest only beside one that sticks.
+    if (least < 0.0) continue;
     if (instant.solve(seat, s, Vec2::Zero(), Search::kAllMotions)) {
       return kNoMotionInSpace;
     }
-    least = std::min(least, instant.margin(seat, Regime::kStick).least());
   }
   return least;
 }

@@ -124,20 +124,25 @@ PushStop SpatialPushInstant::ask(Answer& now) noexcept {
   }
   ++count_;
   SpatialWarmStart warm = warm_;
-  if (!warm.valid || warm.last.count != now.problem.count) {
+  const bool is_first = !warm.valid || warm.last.count != now.problem.count;
+  if (is_first) {
     // Which of several motions is met first shall not depend on the tolerance.
     SpatialSolveOptions first = options_;
     first.tolerance = kFirstTolerance;
     first.probe_multiplicity = false;
-    (void)solve_spatial(now.problem, first, &warm);
+    now.instant = solve_spatial(now.problem, first, &warm);
   }
   const SpatialWarmStart from = warm;
-  now.instant = solve_spatial(now.problem, options_, &warm);
+  // From nothing a sharper answer would be sought all over again, and not be found.
+  if (!is_first || from.valid) {
+    now.instant = solve_spatial(now.problem, options_, &warm);
+  }
   // A looser answer is better than none; the certificate has the last word.
   SpatialSolveOptions loose = options_;
   loose.tolerance = kLooseTolerance;
   for (const bool from_last : {true, false}) {
     if (now.instant.status != InstantStatus::kOutOfIterations) break;
+    if (from_last && !from.valid) continue;
     warm = from_last ? from : SpatialWarmStart{};
     now.instant = solve_spatial(now.problem, loose, &warm);
   }

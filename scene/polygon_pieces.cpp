@@ -73,58 +73,71 @@ std::vector<Triangle> compact_triangles(const std::vector<Vec2>& outline) {
 }  // namespace
 
 std::vector<Triangle> pieces_of(const std::vector<Vec2>& outline, std::size_t count) {
-  const auto shorter = [](const Triangle& a, const Triangle& b) {
-    return longest_side(a) < longest_side(b);
+  struct Piece {
+    Triangle triangle;
+    double longest;
   };
-  std::vector<Triangle> pieces = compact_triangles(outline);
+  const auto piece = [](const Triangle& t) { return Piece{t, longest_side(t)}; };
+  const auto shorter = [](const Piece& a, const Piece& b) {
+    return a.longest < b.longest;
+  };
+  std::vector<Piece> pieces;
+  pieces.reserve(count);
+  for (const Triangle& t : compact_triangles(outline)) pieces.push_back(piece(t));
   std::make_heap(pieces.begin(), pieces.end(), shorter);
   while (pieces.size() < count) {
     std::pop_heap(pieces.begin(), pieces.end(), shorter);
-    Triangle whole = pieces.back();
-    const double longest = longest_side(whole);
+    auto [whole, longest] = pieces.back();
     while ((whole.vertices[1] - whole.vertices[0]).norm() < longest) {
       std::rotate(whole.vertices.begin(), whole.vertices.begin() + 1,
                   whole.vertices.end());
     }
     const auto& [a, b, c] = whole.vertices;
     const Vec2 middle = 0.5 * (a + b);
-    pieces.back() = {{a, middle, c}};
+    pieces.back() = piece({{a, middle, c}});
     std::push_heap(pieces.begin(), pieces.end(), shorter);
-    pieces.push_back({{middle, b, c}});
+    pieces.push_back(piece({{middle, b, c}}));
     std::push_heap(pieces.begin(), pieces.end(), shorter);
   }
-  return pieces;
+  std::vector<Triangle> triangles;
+  triangles.reserve(pieces.size());
+  for (const Piece& each : pieces) triangles.push_back(each.triangle);
+  return triangles;
 }
 
 namespace {
 
-using Pieces = std::vector<Triangle>::iterator;
+struct Fragment {
+  Vec2 centre;
+  double area;
+};
+using Fragments = std::vector<Fragment>::iterator;
 
 /// Parts of like area: halves of halves, each cut across its longer extent; their centres
 /// become points.
-void add_parts(Pieces first, Pieces last, int parts, std::vector<PolygonPart>& found) {
+void add_parts(Fragments first, Fragments last, int parts,
+               std::vector<PolygonPart>& found) {
   double area = 0.0;
   Vec2 moment = Vec2::Zero();
   Vec2 low = Vec2::Constant(1e9);
   Vec2 high = Vec2::Constant(-1e9);
-  for (Pieces piece = first; piece != last; ++piece) {
-    const Vec2 centre = centroid_of(*piece);
-    area += area_of(*piece);
-    moment += area_of(*piece) * centre;
-    low = low.cwiseMin(centre);
-    high = high.cwiseMax(centre);
+  for (Fragments piece = first; piece != last; ++piece) {
+    area += piece->area;
+    moment += piece->area * piece->centre;
+    low = low.cwiseMin(piece->centre);
+    high = high.cwiseMax(piece->centre);
   }
   if (parts == 1) {
     if (area > 0.0) found.push_back({moment / area, area});
     return;
   }
   const int axis = high.x() - low.x() >= high.y() - low.y() ? 0 : 1;
-  std::sort(first, last, [axis](const Triangle& a, const Triangle& b) {
-    return centroid_of(a)[axis] < centroid_of(b)[axis];
+  std::sort(first, last, [axis](const Fragment& a, const Fragment& b) {
+    return a.centre[axis] < b.centre[axis];
   });
-  Pieces middle = first;
+  Fragments middle = first;
   for (double half = 0.0; middle != last && half < 0.5 * area; ++middle) {
-    half += area_of(*middle);
+    half += middle->area;
   }
   add_parts(first, middle, parts / 2, found);
   add_parts(middle, last, parts / 2, found);
@@ -132,9 +145,14 @@ void add_parts(Pieces first, Pieces last, int parts, std::vector<PolygonPart>& f
 
 }  // namespace
 
-std::vector<PolygonPart> parts_of(std::vector<Triangle> pieces, int count) {
+std::vector<PolygonPart> parts_of(const std::vector<Triangle>& pieces, int count) {
+  std::vector<Fragment> fragments;
+  fragments.reserve(pieces.size());
+  for (const Triangle& piece : pieces) {
+    fragments.push_back({centroid_of(piece), area_of(piece)});
+  }
   std::vector<PolygonPart> parts;
-  add_parts(pieces.begin(), pieces.end(), count, parts);
+  add_parts(fragments.begin(), fragments.end(), count, parts);
   return parts;
 }
 

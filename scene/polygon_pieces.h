@@ -30,6 +30,6 @@ struct PolygonPart {
 };
 
 /// Joins pieces to `count` (a power of two) parts of nearly the same area.
-std::vector<PolygonPart> parts_of(std::vector<Triangle> pieces, int count);
+std::vector<PolygonPart> parts_of(const std::vector<Triangle>& pieces, int count);
 
 }  // namespace prehensile

@@ -1,4 +1,6 @@
 /// `query cone` as its users meet it.
+#include <cmath>
+#include <numbers>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -57,11 +59,36 @@ TEST(Cone, WritesEdgesAndPicture) {
   EXPECT_TRUE(read_text(svg).starts_with("<?xml"));
 }
 
+/// Every sixth of the directions that are looked at by default.
+TEST(Cone, FewSlicesAreSomeOfMany) {
+  for (const std::string scene : {"paper/slide.yaml", "tilted_hand.yaml"}) {
+    const std::string query =
+        "query cone problems/" + scene + " --json --points 4 --vary mass=0 --check 0 ";
+    const json many = json::parse(run_program(query + "--slices 37").out);
+    const json few = json::parse(run_program(query + "--slices 7").out);
+    EXPECT_EQ(many.at("directions"), few.at("directions"));
+    int found = 0;
+    for (const json& slice : many.at("slices")) {
+      const double at = slice.at("direction").get<double>() / (std::numbers::pi / 3.0);
+      if (std::abs(at - std::round(at)) > 1e-9) continue;
+      ASSERT_LT(found, static_cast<int>(few.at("slices").size()));
+      const json& same = few.at("slices").at(static_cast<std::size_t>(found++));
+      EXPECT_NEAR(same.at("direction").get<double>(), slice.at("direction").get<double>(),
+                  1e-12);
+      EXPECT_EQ(same.at("nominal").size(), slice.at("nominal").size());
+    }
+    EXPECT_EQ(found, static_cast<int>(few.at("slices").size()));
+    EXPECT_GT(found, 0);
+    EXPECT_GT(many.at("slices").size(), few.at("slices").size());
+  }
+}
+
 TEST(Cone, WrongUseIsBadInput) {
   for (const char* option :
-       {"--vary friction", "--vary friction=-1", "--vary colour=0.1", "--vary friction=2",
-        "--vary place_mm=1abs", "--pusher nobody", "--set gripper.friction=0",
-        "--set 'gripper.pad={point: {}}'", "--plot /nowhere/at/all.svg"}) {
+       {"--slices 1", "--vary friction", "--vary friction=-1", "--vary colour=0.1",
+        "--vary friction=2", "--vary place_mm=1abs", "--pusher nobody",
+        "--set gripper.friction=0", "--set 'gripper.pad={point: {}}'",
+        "--plot /nowhere/at/all.svg"}) {
     const Outcome out = run_program(kCone + option);
     EXPECT_EQ(out.exit_code, 2) << option << out.out;
     EXPECT_FALSE(out.err.empty()) << option;

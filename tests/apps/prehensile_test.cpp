@@ -177,6 +177,11 @@ TEST(Program, PushesAreFollowedInSpaceWhereTheSceneNeedsIt) {
       run_program(push + "tilted_hand.yaml --travel-mm 5 --grip-range --json");
   EXPECT_EQ(grip.err.find("note:"), std::string::npos);
   EXPECT_TRUE(json::parse(grip.out).at("in_space").get<bool>());
+  const Outcome coarse = run_program(
+      push + "tilted_hand.yaml --travel-mm 5 --grip-range --grip-places 2 --json");
+  const json range = json::parse(coarse.out);
+  EXPECT_EQ(range.at("profile").size(), 3U);
+  EXPECT_EQ(range.at("least"), json::parse(grip.out).at("least"));
 }
 
 /// Members that the robust cone has not seen stick in space.

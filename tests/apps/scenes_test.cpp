@@ -35,19 +35,21 @@ std::vector<std::string> shipped_scenes() {
 
 /// What is asked for by samples takes how many of them.
 struct Samples {
+  const char* grip;
   const char* cone;
   const char* spread;
   const char* contact;
 };
-constexpr Samples kShipped{"--samples 8 --check 100", "12", "4"};
+constexpr Samples kShipped{"", "--samples 8 --check 100", "12", "4"};
 /// Of random scenes some take minutes per query under the sanitizers.
-constexpr Samples kRandom{"--samples 2 --check 10 --points 4", "4", "2"};
+constexpr Samples kRandom{"--grip-places 2",
+                          "--samples 2 --slices 13 --check 10 --points 4", "4", "2"};
 
 /// SCENE stands for the scene's file.
 std::vector<std::string> queries(const Samples& samples) {
   return {"instant SCENE",
           "push SCENE --travel-mm 3",
-          "push SCENE --travel-mm 3 --grip-range --points 4",
+          std::string("push SCENE --travel-mm 3 --grip-range --points 4 ") + samples.grip,
           "sweep SCENE --over gripper.grip_force=1:50:5",
           "sweep SCENE --of push --over travel_mm=1,40 --over pushers.0.friction=0.1,0.9",
           "sweep SCENE --of roll --over pushers.0.friction=0.1,0.9",

@@ -15,6 +15,10 @@
 namespace prehensile::apps {
 namespace {
 
+double grip_force_of(const Model& model, const PushContact& contact) {
+  return model.scene.gripper.grip_force * contact.grip_share;
+}
+
 nlohmann::ordered_json to_json(const Model& model) {
   nlohmann::ordered_json contacts = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
@@ -29,7 +33,9 @@ nlohmann::ordered_json to_json(const Model& model) {
                         {"reference_constraints", size.reference_constraints},
                         {"spatial_unknowns", size.spatial_unknowns},
                         {"spatial_points", size.spatial_points},
-                        {"gravity_in_object", numbers(contact.g_O)}});
+                        {"grip_force", number(grip_force_of(model, contact))},
+                        {"gravity_in_object",
+                         numbers(contact.grip_share * contact.g_O)}});
   }
   nlohmann::ordered_json decisions = nlohmann::ordered_json::array();
   for (const Decision& decision : model.decisions) {
@@ -67,7 +73,7 @@ void print(const Model& model) {
     for (std::size_t i = 0; i < model.contacts.size(); ++i) {
       const int index = static_cast<int>(i);
       const ProblemSize size = size_of_problem(model, index);
-      const Vec2& g = model.contacts[i].g_O;
+      const Vec2 g = model.contacts[i].grip_share * model.contacts[i].g_O;
       table.add({contact_text(model, index), text("%d", size.pusher_points),
                  text("%d", size.unknowns), text("%d", size.generators),
                  text("%d", size.reference_unknowns),

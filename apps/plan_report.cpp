@@ -94,7 +94,12 @@ std::string explanation_text(const Explanation& explanation) {
 
 std::string contact_text(const Model& model, int contact) {
   const PushContact& c = model.contacts[contact];
-  return model.scene.pushers[c.pusher].name + " on " + model.faces[c.face].name;
+  std::string out = model.scene.pushers[c.pusher].name;
+  out += " on " + model.faces[c.face].name;
+  if (c.grip_share != 1.0) {
+    out += text(", grip %.1f N", c.grip_share * model.scene.gripper.grip_force);
+  }
+  return out;
 }
 
 std::string pose_text(const Model& model, const Grasp& grasp) {

@@ -281,7 +281,8 @@ void run_sweep(Sweep& sweep, const SceneFile& file, const SceneOptions& scene, i
   const bool one_scene =
       std::all_of(sweep.fields.begin(), sweep.fields.end(),
                   [](const SweptField& field) { return field.is_of_query; });
-  const PrepareOptions options{.points_per_pad = sweep.question.path.points};
+  const PrepareOptions options{.points_per_pad = sweep.question.path.points,
+                               .other_grips = false};
   const std::filesystem::path folder = std::filesystem::path(scene.file).parent_path();
   std::optional<Model> model;
   if (one_scene) model = prepare(file.scene, options);

@@ -118,7 +118,7 @@ void visit_push(Fields& fields, WrittenPush& push) {
   fields.number("turn", push.turn, kRadians,
                 "Of the pusher in the hand over the whole push; not for a roll.");
   fields.number("grip_force", push.grip_force, {0.0, 1e6, "N"},
-                "Of each finger during a roll. Absent: that of the scene.");
+                "Of each finger during the push. Absent: that of the scene.");
   fields.number("guard_angle", push.guard_angle, {0.0, 10.0, "rad"},
                 "A slide stops when the object has turned by this.");
   fields.number("guard_distance", push.guard_distance, {0.0, 10.0, "m"},

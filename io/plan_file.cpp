@@ -55,6 +55,9 @@ WrittenPush record_of(const Model& model, const PlannedPush& planned) {
     return record;
   }
   const LinearPush linear = as_linear(planned.push);
+  if (contact.grip_share != 1.0) {
+    record.grip_force = grip_force_of(model, planned.push);
+  }
   record.place = linear.place;
   record.direction = linear.e;
   record.travel = linear.travel;
@@ -92,8 +95,18 @@ class PushMaker {
   }
 
   int contact_of_names(const WrittenPush& record) {
-    const int contact = find_contact(model_, record.pusher, record.face);
+    const bool is_roll = record.kind == PushKind::kRoll;
+    const double own = model_.scene.gripper.grip_force;
+    const double share =
+        is_roll || own == 0.0 ? 1.0 : record.grip_force.value_or(own) / own;
+    const int contact = find_contact(model_, record.pusher, record.face, share);
     if (contact >= 0 && !record.face.empty()) return contact;
+    if (find_contact(model_, record.pusher, record.face) >= 0 && !record.face.empty()) {
+      fault("grip_force", internal::number_text(*record.grip_force) +
+                              ": expected that of the scene, or one that plans try in its "
+                              "gripper.grip_range");
+      return 0;
+    }
     std::string faces;
     bool known = false;
     for (const PushContact& other : model_.contacts) {
@@ -132,7 +145,6 @@ class PushMaker {
     if (!record.turn) fault("turn", "missing: expected for every kind but roll");
     if (!complete) return LinearPush{};
     check_motion(record);
-    refuse("grip_force", record.grip_force);
     const double place = *record.place;
     if (record.kind == PushKind::kSlide && record.guard_angle) {
       refuse("guard_distance", record.guard_distance);

@@ -130,6 +130,9 @@ void visit_gripper(Fields& fields, Gripper& gripper) {
                     "Of both jaws, or of [jaw 1, jaw 2].");
   fields.number("grip_force", gripper.grip_force, {0.0, 1e6, "N"}, kRequired,
                 "Of each finger.");
+  fields.vector("grip_range", gripper.grip_range, {1e-3, 1e6, "N"},
+                "Least and greatest grip force that a plan may push with; gravity along "
+                "the closing direction has to be 0. Absent: grip_force.");
   fields.word("jaw_mode", gripper.jaw_mode, kJawModeWords, kOptional,
               "coupled: symmetric jaws; fixed_jaw_1 or fixed_jaw_2: that jaw stands "
               "still, the other one presses; independent: each presses by itself; "

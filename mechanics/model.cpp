@@ -59,6 +59,31 @@ PushContact make_contact(const Scene& scene, int pusher_index, const Face& face,
   return contact;
 }
 
+/// The contacts again with other grip forces: the ends of the range and its middle.
+void add_other_grips(const Scene& scene, Model& model) {
+  const Gripper& gripper = scene.gripper;
+  if (!gripper.grip_range || !(gripper.grip_force > 0.0)) return;
+  if (scene.g_W.isZero()) {
+    model.decisions.push_back({"other grip forces of gripper.grip_range",
+                               "without gravity they only scale the forces"});
+    return;
+  }
+  const auto& [least, greatest] = std::pair((*gripper.grip_range)[0],
+                                            (*gripper.grip_range)[1]);
+  std::vector<double> forces = {least};
+  if (greatest > least) forces.insert(forces.end(), {std::sqrt(least * greatest), greatest});
+  const std::size_t own = model.contacts.size();
+  for (const double force : forces) {
+    if (force == gripper.grip_force) continue;
+    for (std::size_t i = 0; i < own; ++i) {
+      PushContact contact = model.contacts[i];
+      contact.grip_share = force / gripper.grip_force;
+      contact.g_O /= contact.grip_share;
+      model.contacts.push_back(contact);
+    }
+  }
+}
+
 CrossSectionModel make_cross_section(const Scene& scene) {
   CrossSectionModel section;
   section.radius = std::get<CylinderShape>(scene.object.shape).radius;
@@ -201,6 +226,7 @@ Model prepare(const Scene& scene, const PrepareOptions& options) {
           make_contact(scene, static_cast<int>(i), model.faces[face], face));
     }
   }
+  if (options.other_grips) add_other_grips(scene, model);
   model.p_OCom = centre_of_mass(scene.object);
   model.mass = scene.object.mass;
   model.z_OCom = height_of_mass(scene.object);
@@ -285,12 +311,16 @@ bool pads_on_object(const Model& model, const PlanarPose& X_HO) noexcept {
          model.region.at(X_HO).count > 0;
 }
 
-int find_contact(const Model& model, const std::string& pusher, const std::string& face) {
+int find_contact(const Model& model, const std::string& pusher, const std::string& face,
+                 double grip_share) {
+  constexpr double kSameGrip = 1e-6;
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const PushContact& contact = model.contacts[i];
     const bool same_pusher = model.scene.pushers[contact.pusher].name == pusher;
     const bool same_face = face.empty() || find_face(model.faces, face) == contact.face;
-    if (same_pusher && same_face) return static_cast<int>(i);
+    const bool same_grip =
+        std::abs(contact.grip_share - grip_share) <= kSameGrip * grip_share;
+    if (same_pusher && same_face && same_grip) return static_cast<int>(i);
   }
   return -1;
 }

@@ -33,7 +33,11 @@ struct PushContact {
       0.0;              ///< [m] of the pusher; infinity: longer than the face; 0: point
   double z_low = 0.0;   ///< [m] extent of the contact along z of O; both 0 where the
   double z_high = 0.0;  ///< pusher touches in the mid-plane only
-  Vec2 g_O = Vec2::Zero();  ///< [m/s^2] gravity in O during contact
+  /// Grip force while it touches, over Gripper::grip_force. Under a grip k times as strong
+  /// the object moves as under 1/k of its weight, and all forces are k times as great.
+  double grip_share = 1.0;
+  /// [m/s^2] gravity in O during contact, over grip_share.
+  Vec2 g_O = Vec2::Zero();
   double theta_WO = 0.0;    ///< [rad] attitude of the object in W during contact
 
   /// The pusher pushes as much above the mid-plane as below.
@@ -65,6 +69,7 @@ struct LyingPrism {
 
 struct PrepareOptions {
   int points_per_pad = 16;  ///< quadrature of an unclipped pad: 1, 4, 8, 16, 32 or 64
+  bool other_grips = true;  ///< contacts with the grip forces of gripper.grip_range, too
 };
 
 struct Model {
@@ -74,7 +79,9 @@ struct Model {
   std::vector<Vec2> outline;          ///< in O
   std::vector<Vec2> pad_face;         ///< in O: the pads' centre has to stay on it
   std::vector<Face> faces;            ///< in O
-  std::vector<PushContact> contacts;  ///< everything a planar push may name
+  /// Everything a planar push may name: with the grip force of the scene, then again with
+  /// each other one of its grip_range that is tried.
+  std::vector<PushContact> contacts;
   ContactRegion region;
 
   Vec2 p_OCom = Vec2::Zero();  ///< [m]
@@ -160,8 +167,9 @@ PlanarDrive drive_at(const PushContact& contact, double place, const PlanarPose&
 /// The pose is valid: the centre of each pad lies on the face, and the pads touch.
 bool pads_on_object(const Model& model, const PlanarPose& X_HO) noexcept;
 
-/// Index of the contact of this pusher (by name) with this face (empty: its first), or
-/// -1.
-int find_contact(const Model& model, const std::string& pusher, const std::string& face);
+/// Index of the contact of this pusher (by name) with this face (empty: its first), with
+/// this share of the scene's grip force, or -1.
+int find_contact(const Model& model, const std::string& pusher, const std::string& face,
+                 double grip_share = 1.0);
 
 }  // namespace prehensile

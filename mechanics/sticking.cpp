@@ -242,7 +242,7 @@ StickTest exact_stick_test(const Model& model, const PushContact& contact, doubl
     return pad_drag(model, grasp, X_HO.theta, v * direction, omega, stretch);
   };
   const PadDrag nominal = drag_at(e, 1.0);
-  test = reported(stick, p_OF, nominal, model.F, kPadMoment);
+  test = reported(stick, p_OF, nominal, model.F * contact.grip_share, kPadMoment);
   const StickContact weak = weakened(stick, margin);
   const Vec2 p_OF_begin = p_OF + travelled * e;
   const bool turns_drag = model.region.is_isotropic();  // by as much as the motion

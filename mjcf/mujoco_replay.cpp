@@ -72,7 +72,6 @@ class Simulation {
  public:
   Simulation(const Stage& stage, ModelPointer model)
       : model_(std::move(model)), data_(mj_makeData(model_.get())) {
-    grip(stage.model->scene.gripper.grip_force);
     object_ = mj_name2id(model_.get(), mjOBJ_BODY, std::string(kObject).c_str());
     first_of_object_ = model_->jnt_qposadr[model_->body_jntadr[object_]];
     margins_.assign(model_->pair_margin, model_->pair_margin + model_->npair);
@@ -277,7 +276,10 @@ class Replayer {
       : model_(model),
         stage_(stage),
         simulation_(stage, std::move(loaded)),
-        X_HO_(in_space(model, stage.pushes.front().start)) {}
+        X_HO_(in_space(model, stage.pushes.front().start)),
+        grip_(grip_force_on_way(model, stage.pushes, 0)) {
+    simulation_.grip(grip_);
+  }
 
   MujocoPush play(std::size_t index) {
     const PlannedPush& planned = stage_.pushes[index];
@@ -293,12 +295,12 @@ class Replayer {
       at.z += begin;
       return at;
     };
-    result.seconds += change_grip(grip_of(model_, planned), hand(0.0));
+    result.seconds += change_grip(grip_force_of(model_, planned.push), hand(0.0));
     // Not while the hand gathers speed: the pads still hold some of the last push's load.
     result.peak_force = simulation_.follow(
         pace.seconds(), [&](double t) { return hand(pace.done(t)); }, pace.ramp());
     result.seconds += pace.seconds();
-    result.seconds += change_grip(model_.scene.gripper.grip_force, hand(1.0));
+    result.seconds += change_grip(grip_force_on_way(model_, stage_.pushes, index + 1), hand(1.0));
     z_WH_ = hand(1.0).z;
     X_HO_ = simulation_.held(hand(1.0));
     result.end = grasp_of(model_, X_HO_, planned.end);
@@ -349,7 +351,7 @@ class Replayer {
   Simulation simulation_;
   Eigen::Isometry3d X_HO_;
   double z_WH_ = 0.0;
-  double grip_ = model_.scene.gripper.grip_force;
+  double grip_ = 0.0;  // [N] of each finger
 };
 
 }  // namespace

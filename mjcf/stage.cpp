@@ -173,12 +173,6 @@ HandPose hand_at(const Model& model, const PlannedPush& planned, double s, doubl
   return {compose(X_WP, inverse(riding(planned, s))), roll ? -s * roll->travel : 0.0};
 }
 
-double grip_of(const Model& model, const PlannedPush& planned) {
-  const auto* roll = std::get_if<Roll>(&planned.push);
-  return roll && roll->grip_force > 0.0 ? roll->grip_force
-                                        : model.scene.gripper.grip_force;
-}
-
 Eigen::Quaterniond attitude(const Model& model, double theta, double psi) {
   const auto* cylinder = std::get_if<CylinderShape>(&model.scene.object.shape);
   const int axis = cylinder ? static_cast<int>(cylinder->axis) : 0;
@@ -229,7 +223,7 @@ Stage stage(const Model& model, const std::vector<PlannedPush>& pushes, double s
   // The loosest grip decides: springs too stiff for it make the pads rattle.
   double least = grip;
   for (const PlannedPush& planned : pushes)
-    least = std::min(least, grip_of(model, planned));
+    least = std::min(least, grip_force_of(model, planned.push));
   result.stiffness = least / (shifts ? kStiff : kSoft);
   result.speed = result.in_space ? kSpeedInSpace : kSpeed;
   if (speed > 0.0) result.speed = speed;

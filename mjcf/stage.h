@@ -33,9 +33,6 @@ struct HandPose {
 HandPose hand_at(const Model& model, const PlannedPush& planned, double s,
                  double gap = 0.0);
 
-/// Of each finger during a push [N].
-double grip_of(const Model& model, const PlannedPush& planned);
-
 /// Attitude of the object in W: turned about z, and rolled about its own long axis.
 Eigen::Quaterniond attitude(const Model& model, double theta, double psi);
 

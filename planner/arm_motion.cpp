@@ -80,6 +80,7 @@ class MotionWriter {
 
   void begin_placement() {
     if (continues(push_)) return;
+    if (push_ == 0) grip_ = grip_on_way(0);
     z_ = 0.0;
     const PlanarPose& X_HO = planned().start.X_HO;
     const HandPose away = hand(X_HO, limits_.clearance);
@@ -106,6 +107,7 @@ class MotionWriter {
   void write_push() {
     if (const auto* roll = std::get_if<Roll>(&planned().push)) return write_roll(*roll);
     const LinearPush push = as_linear(planned().push);
+    change_grip(grip_force_of(model_, planned().push), planned().start);
     const PlanarPose& X_HO = planned().start.X_HO;
     const PlanarPose X_WP = object_at_pusher(model_, contact(), push.place);
     move(ArmPhase::kPush, push.travel, push.turn, limits_.push_speed, [&](double s) {
@@ -114,19 +116,18 @@ class MotionWriter {
   }
 
   void write_roll(const Roll& roll) {
-    const double scene_grip = model_.scene.gripper.grip_force;
-    const double grip = roll.grip_force > 0.0 ? roll.grip_force : scene_grip;
-    change_grip(scene_grip, grip);
+    change_grip(grip_force_of(model_, planned().push), planned().start);
     const HandPose begin = hand(planned().start.X_HO, 0.0);
     move(ArmPhase::kPush, std::abs(roll.travel), 0.0, limits_.push_speed, [&](double s) {
       return HandPose{begin.X_WH, begin.z - s * roll.travel};
     });
     z_ -= roll.travel;
-    change_grip(grip, scene_grip);
+    change_grip(grip_on_way(push_ + 1), planned().end);
   }
 
   void end_placement() {
     if (continues(push_ + 1)) return;
+    change_grip(grip_on_way(push_ + 1), planned().end);
     const PlanarPose& X_HO = planned().end.X_HO;
     move(ArmPhase::kRetreat, limits_.clearance, 0.0, limits_.approach_speed,
          [&](double s) { return hand(X_HO, s * limits_.clearance); });
@@ -134,10 +135,15 @@ class MotionWriter {
     last_.X_WH.theta += turns_;
   }
 
-  void change_grip(double from, double to) {
-    grip_ = from;
+  double grip_on_way(int push) const {
+    return grip_force_on_way(model_, plan_.pushes, static_cast<std::size_t>(push));
+  }
+
+  /// While the hand stands still at the pusher.
+  void change_grip(double to, const Grasp& grasp) {
+    const double from = grip_;
     if (from == to) return;
-    const HandPose still = hand(planned().start.X_HO, 0.0);
+    const HandPose still = hand(grasp.X_HO, 0.0);
     run(ArmPhase::kGrip, limits_.grip_seconds, [&](double s) {
       grip_ = std::lerp(from, to, s);
       return HandPose{still.X_WH, z_};
@@ -160,7 +166,6 @@ class MotionWriter {
 
   template <typename Path>
   void run(ArmPhase phase, double seconds, const Path& path) {
-    if (motion_.samples.empty()) grip_ = model_.scene.gripper.grip_force;
     const int steps = std::max(1, static_cast<int>(std::ceil(seconds * limits_.rate)));
     const std::size_t first = motion_.samples.size();
     for (int i = 0; i <= steps; ++i) {

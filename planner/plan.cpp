@@ -1,5 +1,6 @@
 #include "planner/plan.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace prehensile {
@@ -113,6 +114,28 @@ std::string_view name(PushConstraint constraint) {
       break;
   }
   return "unknown";
+}
+
+double grip_force_of(const Model& model, const Push& push) {
+  const double own = model.scene.gripper.grip_force;
+  if (const auto* roll = std::get_if<Roll>(&push)) {
+    return roll->grip_force > 0.0 ? roll->grip_force : own;
+  }
+  const auto contact = static_cast<std::size_t>(contact_of(push));
+  return own * model.contacts[contact].grip_share;
+}
+
+double grip_force_on_way(const Model& model, const std::vector<PlannedPush>& pushes,
+                         std::size_t push) {
+  double force = model.scene.gripper.grip_force;
+  const auto keep = [&](const Push& beside) {
+    if (!std::holds_alternative<Roll>(beside)) {
+      force = std::max(force, grip_force_of(model, beside));
+    }
+  };
+  if (push > 0) keep(pushes[push - 1].push);
+  if (push < pushes.size()) keep(pushes[push].push);
+  return force;
 }
 
 void account(const Model& model, Plan& plan) {

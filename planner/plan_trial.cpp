@@ -7,12 +7,18 @@
 namespace prehensile {
 namespace {
 
-/// The contact of the same pusher and face in a varied scene, or -1.
+bool same_place(const PushContact& a, const PushContact& b) {
+  return a.pusher == b.pusher && a.face == b.face;
+}
+
+/// The contact of the same pusher and face in a varied scene, or -1. Grip forces vary with
+/// the scene, their order does not.
 int same_contact(const Model& nominal, const Model& other, int contact) {
   const PushContact& wanted = nominal.contacts[static_cast<std::size_t>(contact)];
+  int before = 0;
+  for (int i = 0; i < contact; ++i) before += same_place(nominal.contacts[i], wanted);
   for (std::size_t i = 0; i < other.contacts.size(); ++i) {
-    const PushContact& found = other.contacts[i];
-    if (found.pusher == wanted.pusher && found.face == wanted.face) {
+    if (same_place(other.contacts[i], wanted) && before-- == 0) {
       return static_cast<int>(i);
     }
   }

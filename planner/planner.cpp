@@ -11,6 +11,7 @@
 #include "planner/confines.h"
 #include "planner/exact_check.h"
 #include "planner/frame.h"
+#include "planner/loosen_grip.h"
 #include "planner/meet_end.h"
 #include "planner/polish.h"
 #include "planner/push_search.h"
@@ -43,26 +44,39 @@ void set_undecided(Plan& plan, std::string message) {
   plan.pushes.clear();
 }
 
+/// Puts a plan to the exact check, with the grip loosened if that passes.
+bool passes_check(const SearchModel& search, const PlanOptions& options, Work& work,
+                  Plan& plan, std::string& why) {
+  const Model& model = *search.model;
+  meet_ends(model, options.transition, plan);
+  Plan loosened = plan;
+  if (loosen_grip(search, work, loosened)) {
+    if (check_exactly(model, options.transition, loosened, &why)) {
+      plan = std::move(loosened);
+      return true;
+    }
+    plan.instants = loosened.instants;
+  }
+  return check_exactly(model, options.transition, plan, &why);
+}
+
 /// Polishes a plan found and puts it to the exact check, the plan as found if the shorter
 /// one fails; undecided with the reason if both fail.
 void finish(const SearchModel& search, const PlanOptions& options, const Limits& limits,
             Work& work, Plan& plan) {
-  const Model& model = *search.model;
   std::string why;
   if (work.meter) work.meter->enter("polish");
   if (options.polish) {
     Plan shorter = plan;
     improve_by_run(search, limits, work, shorter);
     polish(search, limits, work, shorter);
-    meet_ends(model, options.transition, shorter);
-    if (check_exactly(model, options.transition, shorter, &why)) {
+    if (passes_check(search, options, work, shorter, why)) {
       plan = std::move(shorter);
       return;
     }
     plan.instants = shorter.instants;
   }
-  meet_ends(model, options.transition, plan);
-  if (check_exactly(model, options.transition, plan, &why)) return;
+  if (passes_check(search, options, work, plan, why)) return;
   set_undecided(plan, "the plan found fails its exact check: " + why);
 }
 

@@ -201,7 +201,7 @@ class SingleRuns {
     node.points = 2;
     node.placements = 1;
     node.box[0].centre = question_.p_OF;
-    node.contact[1] = static_cast<signed char>(run.contact);
+    node.contact[1] = static_cast<short>(run.contact);
     node.bound = 1.0 + question_.straight / scene_.L;
     set_goal(question_, run.turn_low, run.turn_high, node);
     return node;
@@ -271,7 +271,7 @@ double words(const WordScene& scene, const WordQuestion& question, int placement
   for (;;) {
     bool repeats = false;
     for (int i = 0; i < placements; ++i) {
-      node.contact[i + 1] = static_cast<signed char>(word[i]);
+      node.contact[i + 1] = static_cast<short>(word[i]);
       repeats = repeats || (i > 0 && word[i] == word[i - 1]);
     }
     if (!repeats) {

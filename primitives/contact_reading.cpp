@@ -77,6 +77,14 @@ Sample sample_of(const ContactReading& reading, InstantStatus status,
   return sample;
 }
 
+void scale_forces(double share, Sample& sample) noexcept {
+  sample.push_force *= share;
+  sample.normal_force *= share;
+  sample.tangential_force *= share;
+  for (double& force : sample.jaw_force) force *= share;
+  sample.moment_across *= share;
+}
+
 PushStop stop_of(InstantStatus status) noexcept {
   using enum TransitionStatus;
   switch (status) {

@@ -71,6 +71,10 @@ bool recedes_somewhere(const PlanarDrive& drive) noexcept;
 Sample sample_of(const ContactReading& reading, InstantStatus status,
                  double push_force) noexcept;
 
+/// Forces and moments of an instant under the scene's grip become those under `share` of
+/// it.
+void scale_forces(double share, Sample& sample) noexcept;
+
 /// Why a push cannot go on with an instant of this status.
 PushStop stop_of(InstantStatus status) noexcept;
 

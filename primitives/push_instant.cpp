@@ -183,6 +183,7 @@ Sample PushInstant::sample(double s, double psi) const {
                            ? limit_surface_residual(model_->surface(), now.grasp.w_g,
                                                     now.drive, now.instant)
                            : certify(now.grasp, now.drive, now.instant).worst;
+  scale_forces(contact_->grip_share, sample);
   return sample;
 }
 

@@ -312,6 +312,7 @@ Sample SpatialPushInstant::sample(double s, double psi) const {
   sample.pressed = static_cast<double>(pressed) / points;
   sample.moment_across = now.instant.w_push.segment<2>(3).norm();
   sample.out_of_plane = now.out_of_plane;
+  scale_forces(contact_->grip_share, sample);
   return sample;
 }
 

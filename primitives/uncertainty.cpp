@@ -146,6 +146,11 @@ UncertainPush vary(const Scene& scene, const Grasp& start, const Push& push,
     friction = changed(Unknown::kFingerFriction, friction);
   }
   gripper.grip_force = changed(Unknown::kGripForce, gripper.grip_force);
+  if (gripper.grip_range) {
+    for (double& force : *gripper.grip_range) {
+      force = changed(Unknown::kGripForce, force);
+    }
+  }
   if (auto* roll = std::get_if<Roll>(&out.push); roll && roll->grip_force > 0.0) {
     roll->grip_force = changed(Unknown::kGripForce, roll->grip_force);
   }

@@ -125,6 +125,16 @@ void check_pad(Checker& checker, const Gripper& gripper, const Object& object) {
   }
 }
 
+void check_grip_range(Checker& checker, const Vec2& range) {
+  constexpr double kLeast = 1e-3;  // [N]
+  checker.in_range("gripper.grip_range", range[0], kLeast, 1e6, "N");
+  checker.in_range("gripper.grip_range", range[1], kLeast, 1e6, "N");
+  if (range[0] > range[1]) {
+    checker.fault("gripper.grip_range", "the least force is greater than the greatest: "
+                                        "expected [least, greatest]");
+  }
+}
+
 void check_gripper(Checker& checker, const Gripper& gripper, const Object& object) {
   check_pad(checker, gripper, object);
   checker.in_range("gripper.pressure.compliance", gripper.pressure.compliance, 1e-8, 1e3,
@@ -135,6 +145,7 @@ void check_gripper(Checker& checker, const Gripper& gripper, const Object& objec
     checker.in_range("gripper.friction", mu, 0.0, 1e3, "");
   }
   checker.in_range("gripper.grip_force", gripper.grip_force, 0.0, 1e6, "N");
+  if (gripper.grip_range) check_grip_range(checker, *gripper.grip_range);
   const bool both_driven_alike =
       gripper.jaw_mode == JawMode::kIndependent || gripper.jaw_mode == JawMode::kLocked;
   if (both_driven_alike && can_roll(object)) {
@@ -327,6 +338,11 @@ std::vector<Fault> check(const Scene& scene) {
   check_object(checker, scene.object);
   check_pushers(checker, scene);
   check_gripper(checker, scene.gripper, scene.object);
+  if (scene.gripper.grip_range && scene.g_Wz != 0.0) {
+    checker.fault("gripper.grip_range",
+                  "gravity has a part along the closing direction: expected none, for the "
+                  "forces of the jaws would not scale with the grip");
+  }
   checker.in_range("gravity", std::hypot(scene.g_W.x(), scene.g_W.y(), scene.g_Wz), 0.0,
                    1e3, "m/s^2");
   if (rolls) check_cross_section(checker, scene);

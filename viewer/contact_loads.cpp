@@ -133,6 +133,17 @@ ContactLoads solved_in_space(const SpatialProblem& problem) {
   return loads;
 }
 
+/// Loads under the scene's grip become those under `share` of it.
+void scale(double share, ContactLoads& loads) {
+  loads.push_force *= share;
+  for (auto* points : {&loads.pusher, &loads.pad[0], &loads.pad[1]}) {
+    for (PointLoad& point : *points) {
+      point.force *= share;
+      point.spin *= share;
+    }
+  }
+}
+
 ContactLoads linear_loads(const Model& model, const Grasp& start, const LinearPush& push,
                           const Sample& sample, bool in_space) {
   const PushContact& contact = model.contacts[static_cast<std::size_t>(push.contact)];
@@ -149,9 +160,12 @@ ContactLoads linear_loads(const Model& model, const Grasp& start, const LinearPu
       .V_HP = pusher_twist(push, start.X_HO, sample.s)};
   // The pusher stands still in the world, so gravity is constant in P.
   const Vec2 g_O = rotated(-X_PO.theta, contact.g_O);
-  if (!in_space) return solved_in_pad_plane(model, grasp_at(model, X_HO, g_O), drive);
-  return solved_in_space(spatial_problem_at(model, contact, drive, X_HO, g_O,
-                                            {.follow_free_pressure = true}));
+  ContactLoads loads =
+      in_space ? solved_in_space(spatial_problem_at(model, contact, drive, X_HO, g_O,
+                                                    {.follow_free_pressure = true}))
+               : solved_in_pad_plane(model, grasp_at(model, X_HO, g_O), drive);
+  scale(contact.grip_share, loads);
+  return loads;
 }
 
 /// A cross-section stands in H: u along the normal of the support, z as it is; `foot` is

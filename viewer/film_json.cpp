@@ -295,6 +295,8 @@ Json push_json(const Model& model, const FilmPush& push, std::size_t stride) {
               {"error_estimate", number(done.error_estimate)},
               {"events", events_json(done)},
               {"frames", Json::array()}};
+  const double grip = grip_force_of(model, push.push);
+  if (grip != model.scene.gripper.grip_force) out["grip_force"] = number(grip);
   std::array<Json, 2> last_places;
   for (std::size_t i = 0; i < push.frames.size(); ++i) {
     Json frame = frame_json(push.frames[i]);

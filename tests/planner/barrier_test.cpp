@@ -139,6 +139,9 @@ TEST(Barrier, FeasibleProblemsHaveNone) {
   }
 }
 
+/// Over F: a fall that leaves more than this is none that a check may count on.
+constexpr double kBarelyFalls = 0.01;
+
 /// Tries to cross a proved border at random places, by the pads themselves.
 int crossings(const Model& model, const Loops& region, int tries, Random& random) {
   int crossed = 0;
@@ -154,7 +157,7 @@ int crossings(const Model& model, const Loops& region, int tries, Random& random
     const Vec2 d = rotated(random.in(-0.5, 0.5) * kPi, out);
     const PushContact& contact =
         model.contacts[random.below(static_cast<int>(model.contacts.size()))];
-    if (holding_slack(model, p_OF, contact.g_O, Margin::none()) < -0.05) continue;
+    if (holding_slack(model, p_OF, contact.g_O, Margin::none()) < -kBarelyFalls) continue;
     const double kappa = random_kappa(random);
     const double advance =
         std::max(contact.n.dot(-d + kappa / model.c * perp(contact.a - p_OF)),

@@ -68,7 +68,8 @@ export function verdictBox({verdict, is_plan, pushes}) {
 }
 
 function pushText(push, pushers) {
-  return `${push.kind} by ${pushers[push.pusher].name} on ${push.face}`;
+  const grip = push.grip_force === undefined ? '' : `, grip ${newton(push.grip_force)}`;
+  return `${push.kind} by ${pushers[push.pusher].name} on ${push.face}${grip}`;
 }
 
 export class PushList {

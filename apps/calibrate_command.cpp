@@ -29,7 +29,8 @@ PressureFit pressure_called(const std::string& word) {
 
 int run(const Options& options) {
   const SceneFile file = read_scene(options.scene.file, options.scene.overrides);
-  Measurements data = read_measurements(options.data, prepare(file.scene, {.other_grips = false}));
+  Measurements data =
+      read_measurements(options.data, prepare(file.scene, {.other_grips = false}));
   CalibrateOptions how = options.how;
   how.pressure = pressure_called(options.pressure);
   how.registration = !options.no_registration;

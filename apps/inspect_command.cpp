@@ -24,18 +24,18 @@ nlohmann::ordered_json to_json(const Model& model) {
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const PushContact& contact = model.contacts[i];
     const ProblemSize size = size_of_problem(model, static_cast<int>(i));
-    contacts.push_back({{"pusher", model.scene.pushers[contact.pusher].name},
-                        {"face", model.faces[contact.face].name},
-                        {"points", size.pusher_points},
-                        {"unknowns", size.unknowns},
-                        {"generators", size.generators},
-                        {"reference_unknowns", size.reference_unknowns},
-                        {"reference_constraints", size.reference_constraints},
-                        {"spatial_unknowns", size.spatial_unknowns},
-                        {"spatial_points", size.spatial_points},
-                        {"grip_force", number(grip_force_of(model, contact))},
-                        {"gravity_in_object",
-                         numbers(contact.grip_share * contact.g_O)}});
+    contacts.push_back(
+        {{"pusher", model.scene.pushers[contact.pusher].name},
+         {"face", model.faces[contact.face].name},
+         {"points", size.pusher_points},
+         {"unknowns", size.unknowns},
+         {"generators", size.generators},
+         {"reference_unknowns", size.reference_unknowns},
+         {"reference_constraints", size.reference_constraints},
+         {"spatial_unknowns", size.spatial_unknowns},
+         {"spatial_points", size.spatial_points},
+         {"grip_force", number(grip_force_of(model, contact))},
+         {"gravity_in_object", numbers(contact.grip_share * contact.g_O)}});
   }
   nlohmann::ordered_json decisions = nlohmann::ordered_json::array();
   for (const Decision& decision : model.decisions) {

@@ -92,7 +92,8 @@ void answer_in_space(const std::vector<BoxPoint>& points, const ConeQuestion& qu
 
 int run(const Options& options) {
   const SceneFile file = read_scene(options.scene.file, options.scene.overrides);
-  const Model model = prepare(file.scene, {.points_per_pad = options.points, .other_grips = false});
+  const Model model =
+      prepare(file.scene, {.points_per_pad = options.points, .other_grips = false});
   const int contact = chosen_contact(model, options.push);
   const Grasp grasp = chosen_grasp(model, options.push);
   if (!(model.F > 0.0)) {

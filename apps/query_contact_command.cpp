@@ -134,7 +134,8 @@ ContactVariant ask(const Options& options, const Scene& scene, const Geometry& g
     variant.refusal += fault.field + ": " + fault.what;
   }
   if (!variant.refusal.empty()) return variant;
-  const Model model = prepare(changed, {.points_per_pad = options.path.points, .other_grips = false});
+  const Model model =
+      prepare(changed, {.points_per_pad = options.path.points, .other_grips = false});
   variant.torque_radius = model.c;
   if (contact >= static_cast<int>(model.contacts.size())) {
     variant.refusal = "this contact does not exist with that geometry";
@@ -155,7 +156,8 @@ ContactVariant ask(const Options& options, const Scene& scene, const Geometry& g
 
 int run(const Options& options) {
   const SceneFile file = read_scene(options.scene.file, options.scene.overrides);
-  const Model model = prepare(file.scene, {.points_per_pad = options.path.points, .other_grips = false});
+  const Model model =
+      prepare(file.scene, {.points_per_pad = options.path.points, .other_grips = false});
   const int contact = chosen_contact(model, options.push);
   const Grasp grasp = chosen_grasp(model, options.push);
   const Push push = chosen_push(model, contact, options.push, options.path);

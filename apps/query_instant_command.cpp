@@ -273,7 +273,8 @@ int answer_one(const Options& options, const Asked& asked,
 
 int run(const Options& options) {
   const SceneFile file = read_scene(options.scene.file, options.scene.overrides);
-  const Model model = prepare(file.scene, {.points_per_pad = options.points, .other_grips = false});
+  const Model model =
+      prepare(file.scene, {.points_per_pad = options.points, .other_grips = false});
   const int contact = chosen_contact(model, options.push);
   if (options.roll) return ask_roll(options, model, contact);
   check_options(options);

@@ -73,7 +73,8 @@ std::vector<int> allowed_contacts(const Options& options, const Model& model) {
 
 int run(const Options& options) {
   const SceneFile file = read_scene(options.scene.file, options.scene.overrides);
-  const Model model = prepare(file.scene, {.points_per_pad = options.points, .other_grips = false});
+  const Model model =
+      prepare(file.scene, {.points_per_pad = options.points, .other_grips = false});
   note_pad_plane(model,
                  "pushes are sought and made in space; what no contact can do is not "
                  "proved");

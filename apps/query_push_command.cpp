@@ -158,7 +158,8 @@ Plan plan_of(const Grasp& start, const Push& push) {
 int run(const Options& options) {
   check_view_option(options.view);
   const SceneFile file = read_scene(options.scene.file, options.scene.overrides);
-  const Model model = prepare(file.scene, {.points_per_pad = options.path.points, .other_grips = false});
+  const Model model =
+      prepare(file.scene, {.points_per_pad = options.path.points, .other_grips = false});
   const int contact = chosen_contact(model, options.push);
   const Push push = chosen_push(model, contact, options.push, options.path);
   if (options.grip_range) return run_grip_range(options, model, push);

@@ -99,7 +99,8 @@ int run(const Options& options) {
     throw BadInput("--factors: expected three: normal, tangential, angle");
   }
   const SceneFile file = read_scene(options.scene.file, options.scene.overrides);
-  const Model model = prepare(file.scene, {.points_per_pad = options.path.points, .other_grips = false});
+  const Model model =
+      prepare(file.scene, {.points_per_pad = options.path.points, .other_grips = false});
   const int contact = chosen_contact(model, options.push);
   const Grasp grasp = chosen_grasp(model, options.push);
   const Push push = chosen_push(model, contact, options.push, options.path);

@@ -102,9 +102,10 @@ class PushMaker {
     const int contact = find_contact(model_, record.pusher, record.face, share);
     if (contact >= 0 && !record.face.empty()) return contact;
     if (find_contact(model_, record.pusher, record.face) >= 0 && !record.face.empty()) {
-      fault("grip_force", internal::number_text(*record.grip_force) +
-                              ": expected that of the scene, or one that plans try in its "
-                              "gripper.grip_range");
+      fault("grip_force",
+            internal::number_text(*record.grip_force) +
+                ": expected that of the scene, or one that plans try in its "
+                "gripper.grip_range");
       return 0;
     }
     std::string faces;

@@ -68,10 +68,11 @@ void add_other_grips(const Scene& scene, Model& model) {
                                "without gravity they only scale the forces"});
     return;
   }
-  const auto& [least, greatest] = std::pair((*gripper.grip_range)[0],
-                                            (*gripper.grip_range)[1]);
+  const auto& [least, greatest] =
+      std::pair((*gripper.grip_range)[0], (*gripper.grip_range)[1]);
   std::vector<double> forces = {least};
-  if (greatest > least) forces.insert(forces.end(), {std::sqrt(least * greatest), greatest});
+  if (greatest > least)
+    forces.insert(forces.end(), {std::sqrt(least * greatest), greatest});
   const std::size_t own = model.contacts.size();
   for (const double force : forces) {
     if (force == gripper.grip_force) continue;

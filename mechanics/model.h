@@ -33,12 +33,13 @@ struct PushContact {
       0.0;              ///< [m] of the pusher; infinity: longer than the face; 0: point
   double z_low = 0.0;   ///< [m] extent of the contact along z of O; both 0 where the
   double z_high = 0.0;  ///< pusher touches in the mid-plane only
-  /// Grip force while it touches, over Gripper::grip_force. Under a grip k times as strong
-  /// the object moves as under 1/k of its weight, and all forces are k times as great.
+  /// Grip force while it touches, over Gripper::grip_force. Under a grip k times as
+  /// strong the object moves as under 1/k of its weight, and all forces are k times as
+  /// great.
   double grip_share = 1.0;
   /// [m/s^2] gravity in O during contact, over grip_share.
   Vec2 g_O = Vec2::Zero();
-  double theta_WO = 0.0;    ///< [rad] attitude of the object in W during contact
+  double theta_WO = 0.0;  ///< [rad] attitude of the object in W during contact
 
   /// The pusher pushes as much above the mid-plane as below.
   bool is_symmetric() const { return std::abs(z_low + z_high) < 1e-9; }
@@ -76,9 +77,9 @@ struct Model {
   Scene scene;
   PrepareOptions options;
 
-  std::vector<Vec2> outline;          ///< in O
-  std::vector<Vec2> pad_face;         ///< in O: the pads' centre has to stay on it
-  std::vector<Face> faces;            ///< in O
+  std::vector<Vec2> outline;   ///< in O
+  std::vector<Vec2> pad_face;  ///< in O: the pads' centre has to stay on it
+  std::vector<Face> faces;     ///< in O
   /// Everything a planar push may name: with the grip force of the scene, then again with
   /// each other one of its grip_range that is tried.
   std::vector<PushContact> contacts;

@@ -53,7 +53,8 @@ void write_key_frames(XMLElement* root, const Stage& stage) {
       rates = {(to.X_WH.x - from.X_WH.x) / seconds, (to.X_WH.y - from.X_WH.y) / seconds,
                (to.z - from.z) / seconds, (to.X_WH.theta - from.X_WH.theta) / seconds};
     }
-    add_key(frames, name, stage, from, planned.start, grip_force_of(model, planned.push), rates);
+    add_key(frames, name, stage, from, planned.start, grip_force_of(model, planned.push),
+            rates);
     XMLElement* numeric = child(custom, "numeric");
     set(numeric, "name", name + "_seconds");
     set(numeric, "data", seconds);

@@ -300,7 +300,8 @@ class Replayer {
     result.peak_force = simulation_.follow(
         pace.seconds(), [&](double t) { return hand(pace.done(t)); }, pace.ramp());
     result.seconds += pace.seconds();
-    result.seconds += change_grip(grip_force_on_way(model_, stage_.pushes, index + 1), hand(1.0));
+    result.seconds +=
+        change_grip(grip_force_on_way(model_, stage_.pushes, index + 1), hand(1.0));
     z_WH_ = hand(1.0).z;
     X_HO_ = simulation_.held(hand(1.0));
     result.end = grasp_of(model_, X_HO_, planned.end);

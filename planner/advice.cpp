@@ -36,7 +36,7 @@ class Adviser {
   std::vector<ProposedChange> changes() {
     try_margins();
     try_frictions();
-    try_grip_forces();
+    if (!try_grip_forces()) try_grip_range();
     try_tolerances();
     try_free_angle();
     try_limits();
@@ -92,7 +92,7 @@ class Adviser {
     }
   }
 
-  void try_grip_forces() {
+  bool try_grip_forces() {
     const double from = model_.scene.gripper.grip_force;
     for (const double factor : {1.25, 1.5, 2.0, 4.0}) {
       Scene scene = model_.scene;
@@ -100,8 +100,24 @@ class Adviser {
       ProposedChange change{"grip force " + number(from) + " N -> " +
                             number(factor * from) + " N"};
       change.option = "--set gripper.grip_force=" + number(factor * from);
-      if (works(scene, std::move(change))) return;
+      if (works(scene, std::move(change))) return true;
     }
+    return false;
+  }
+
+  void try_grip_range() {
+    const double own = model_.scene.gripper.grip_force;
+    if (model_.scene.g_W.isZero() || model_.scene.g_Wz != 0.0 ||
+        model_.scene.gripper.grip_range) {
+      return;
+    }
+    const std::string low = number(0.5 * own);
+    const std::string high = number(4.0 * own);
+    Scene scene = model_.scene;
+    scene.gripper.grip_range = Vec2(0.5 * own, 4.0 * own);
+    ProposedChange change{"a grip force for each push, of " + low + " to " + high + " N"};
+    change.option = "--set gripper.grip_range=[" + low + ',' + high + ']';
+    works(scene, std::move(change));
   }
 
   void try_tolerances() {

@@ -83,13 +83,11 @@ bool loosen_grip(const SearchModel& search, Work& work, Plan& plan) {
     }
     const Run run = run_from(plan, i, travelled);
     const int own = contact_of(plan.pushes[i].push);
-    const std::vector<int> weaker = model.contacts[own].is_point
-                                        ? std::vector<int>{}
-                                        : weaker_contacts(model, own);
-    const auto weakest =
-        std::find_if(weaker.begin(), weaker.end(), [&](int contact) {
-          return survives(search, plan, run, contact, work);
-        });
+    const std::vector<int> weaker =
+        model.contacts[own].is_point ? std::vector<int>{} : weaker_contacts(model, own);
+    const auto weakest = std::find_if(weaker.begin(), weaker.end(), [&](int contact) {
+      return survives(search, plan, run, contact, work);
+    });
     for (; i < run.last; ++i) {
       travelled += travel_in_pad_plane(plan.pushes[i].push);
       if (weakest == weaker.end()) continue;

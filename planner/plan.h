@@ -124,9 +124,10 @@ struct Plan {
 /// Of each finger during a push [N].
 double grip_force_of(const Model& model, const Push& push);
 
-/// While the hand goes from a push to the next, or to the first or away from the last [N]:
-/// that of the scene, or of a push beside the way if that is greater. `push`: index of the
-/// next, 0..size. Rolls count with the scene's: a support carries what they loosen.
+/// While the hand goes from a push to the next, or to the first or away from the last
+/// [N]: that of the scene, or of a push beside the way if that is greater. `push`: index
+/// of the next, 0..size. Rolls count with the scene's: a support carries what they
+/// loosen.
 double grip_force_on_way(const Model& model, const std::vector<PlannedPush>& pushes,
                          std::size_t push);
 

@@ -11,8 +11,8 @@ bool same_place(const PushContact& a, const PushContact& b) {
   return a.pusher == b.pusher && a.face == b.face;
 }
 
-/// The contact of the same pusher and face in a varied scene, or -1. Grip forces vary with
-/// the scene, their order does not.
+/// The contact of the same pusher and face in a varied scene, or -1. Grip forces vary
+/// with the scene, their order does not.
 int same_contact(const Model& nominal, const Model& other, int contact) {
   const PushContact& wanted = nominal.contacts[static_cast<std::size_t>(contact)];
   int before = 0;

@@ -48,7 +48,7 @@ struct WordNode {
   int placements = 0;
   std::array<PointBox, kMaxPoints> box;
   std::array<short, kMaxPoints> contact{};  ///< of the piece that ends at a point
-  double turn_low = 0.0, turn_high = 0.0;         ///< [rad]
+  double turn_low = 0.0, turn_high = 0.0;   ///< [rad]
   Vec2 goal_arc = Vec2::Zero();  ///< [m] half of the goal's way between these turns
   double bound = 0.0;            ///< of J
 

@@ -130,8 +130,9 @@ void check_grip_range(Checker& checker, const Vec2& range) {
   checker.in_range("gripper.grip_range", range[0], kLeast, 1e6, "N");
   checker.in_range("gripper.grip_range", range[1], kLeast, 1e6, "N");
   if (range[0] > range[1]) {
-    checker.fault("gripper.grip_range", "the least force is greater than the greatest: "
-                                        "expected [least, greatest]");
+    checker.fault("gripper.grip_range",
+                  "the least force is greater than the greatest: "
+                  "expected [least, greatest]");
   }
 }
 
@@ -339,9 +340,10 @@ std::vector<Fault> check(const Scene& scene) {
   check_pushers(checker, scene);
   check_gripper(checker, scene.gripper, scene.object);
   if (scene.gripper.grip_range && scene.g_Wz != 0.0) {
-    checker.fault("gripper.grip_range",
-                  "gravity has a part along the closing direction: expected none, for the "
-                  "forces of the jaws would not scale with the grip");
+    checker.fault(
+        "gripper.grip_range",
+        "gravity has a part along the closing direction: expected none, for the "
+        "forces of the jaws would not scale with the grip");
   }
   checker.in_range("gravity", std::hypot(scene.g_W.x(), scene.g_W.y(), scene.g_Wz), 0.0,
                    1e3, "m/s^2");

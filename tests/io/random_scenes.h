@@ -207,6 +207,10 @@ inline Scene random_scene(Random& random) {
   if (scene.goal) scene.goal->theta_is = static_cast<ThetaMeaning>(of_space.below(2));
   if (of_space.chance(0.3)) scene.limits = random_limits(of_space, scene.start);
   if (of_space.chance(0.3)) scene.obstacles = random_obstacles(of_space);
+  if (scene.g_Wz == 0.0 && of_space.chance(0.3)) {
+    const double least = of_space.log_in(0.1, 50.0);
+    scene.gripper.grip_range = Vec2(least, of_space.in(1.0, 5.0) * least);
+  }
   return scene;
 }
 
@@ -216,7 +220,7 @@ inline Grasp random_grasp(Random& random) {
 }
 
 inline Push random_push(Random& random, const Model& model) {
-  const int contact = random.below(static_cast<int>(model.contacts.size()));
+  int contact = random.below(static_cast<int>(model.contacts.size()));
   const double place = random.in(-0.05, 0.05);
   const double travel = random.in(0.001, 0.1);
   const double turn = random.in(-1.0, 1.0);
@@ -228,6 +232,7 @@ inline Push random_push(Random& random, const Model& model) {
     case 2:
       return Pivot{contact, place, turn, random.in(1e-4, 1e-2)};
     default:
+      if (model.contacts[contact].grip_share != 1.0) contact = 0;
       return Roll{contact, turn, random.chance(0.5) ? 0.0 : random.in(0.1, 10.0)};
   }
 }

@@ -56,6 +56,23 @@ TEST(Model, GravityTurnsWithTheFaceThatTouches) {
   EXPECT_EQ(find_contact(model, "wall0", "+x"), -1);
 }
 
+TEST(Model, OtherGripsAreFurtherContacts) {
+  Scene scene = square_scene();
+  scene.gripper.grip_range = Vec2(10.0, 40.0);
+  const Model model = prepare(scene);
+  ASSERT_EQ(model.contacts.size(), 12u);
+  for (const double force : {10.0, 20.0, 25.0, 40.0}) {
+    const int contact = find_contact(model, "wall1", "-y", force / 25.0);
+    ASSERT_GE(contact, 0) << force;
+    const PushContact& found = model.contacts[contact];
+    EXPECT_NEAR(found.g_O.norm(), 9.81 * 25.0 / force, 1e-12);
+  }
+  EXPECT_EQ(find_contact(model, "wall1", "-y", 30.0 / 25.0), -1);
+  EXPECT_EQ(prepare(scene, {.other_grips = false}).contacts.size(), 3u);
+  scene.g_W.setZero();  // they would move alike
+  EXPECT_EQ(prepare(scene).contacts.size(), 3u);
+}
+
 TEST(Model, ShortLinesCoverPartOfTheFace) {
   Scene scene = square_scene();
   scene.pushers[0].feature = LineFeature{0.04};

@@ -186,6 +186,39 @@ TEST(ArmMotion, LoadsAreWeightAndPush) {
   }
 }
 
+/// Relax, push, tighten: the grip changes while the hand stands still at a pusher, and
+/// never is less than the scene's or a push's beside it while the hand carries the
+/// object.
+TEST(ArmMotion, ChangesTheGripAtThePusher) {
+  int changes = 0;
+  for (int i = 0; i < 10; ++i) {
+    Scene scene = published_tee(i);
+    const double own = scene.gripper.grip_force;
+    scene.gripper.grip_range = Vec2(0.2 * own, 2.0 * own);
+    const Model model = prepare(scene);
+    const Plan plan = plan_regrasp(model);
+    ASSERT_TRUE(plan.usable()) << scene.name;
+    const std::vector<ArmSample> samples = arm_motion(model, plan).samples;
+    EXPECT_GE(samples.front().grip_force, own);
+    EXPECT_GE(samples.back().grip_force, own);
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      const ArmSample& sample = samples[k];
+      const Push& push = plan.pushes[static_cast<std::size_t>(sample.push)].push;
+      const double of_push = grip_force_of(model, push);
+      if (sample.phase == ArmPhase::kPush) {
+        EXPECT_EQ(sample.grip_force, of_push);
+      } else if (sample.phase != ArmPhase::kGrip) {
+        EXPECT_GE(sample.grip_force, std::max(own, of_push));
+      }
+      if (k == 0 || sample.phase != ArmPhase::kGrip) continue;
+      changes += sample.grip_force != samples[k - 1].grip_force;
+      if (samples[k - 1].phase != ArmPhase::kGrip) continue;
+      EXPECT_EQ(sample.X_WH.position, samples[k - 1].X_WH.position);
+    }
+  }
+  EXPECT_GT(changes, 0);
+}
+
 TEST(ArmMotion, NothingToDoIsNoMotion) {
   Scene scene = published_square(0);
   scene.goal =

@@ -30,6 +30,18 @@ TEST(Uncertainty, TheMiddleOfTheBoxIsThePushItself) {
   }
 }
 
+TEST(Uncertainty, GripForcesOfARangeMoveWithTheGrip) {
+  Scene scene = random_push(3, 1).scene;
+  scene.gripper.grip_range = Vec2(1.0, 7.0);
+  UncertaintyBox box;
+  box[Unknown::kGripForce] = 0.1;
+  BoxPoint up{};
+  up[static_cast<std::size_t>(Unknown::kGripForce)] = 1.0;
+  const Scene varied = vary(scene, scene.start, LinearPush{}, box, up).scene;
+  EXPECT_NEAR((*varied.gripper.grip_range)[0], 1.1, 1e-12);
+  EXPECT_NEAR((*varied.gripper.grip_range)[1], 7.7, 1e-12);
+}
+
 TEST(Uncertainty, EachUnknownMovesItsOwnField) {
   const RandomPush random = random_push(3, 1);
   const Scene& scene = random.scene;

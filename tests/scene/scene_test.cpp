@@ -56,6 +56,14 @@ TEST(Scene, EachFaultNamesItsField) {
       {"gripper.pad.disc.radius", [nan](Scene& s) { s.gripper.pad = DiscPad{nan}; }},
       {"gripper.friction", [](Scene& s) { s.gripper.friction[1] = -0.1; }},
       {"gripper.grip_force", [](Scene& s) { s.gripper.grip_force = -1.0; }},
+      {"gripper.grip_range", [](Scene& s) { s.gripper.grip_range = Vec2(2.0, 1.0); }},
+      {"gripper.grip_range", [](Scene& s) { s.gripper.grip_range = Vec2(0.0, 1.0); }},
+      {"gripper.grip_range", [nan](Scene& s) { s.gripper.grip_range = Vec2(1.0, nan); }},
+      {"gripper.grip_range",
+       [](Scene& s) {
+         s.gripper.grip_range = Vec2(1.0, 2.0);
+         s.g_Wz = -1.0;
+       }},
       {"gripper.jaw_mode",
        [](Scene& s) {
          s.object.shape = CylinderShape{.radius = 0.02, .length = 0.1, .axis = Axis::kX};

@@ -1,5 +1,6 @@
 #include "planner/holding.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -47,6 +48,12 @@ bool surely_falls(const PlanarGrasp& grasp) {
   return false;
 }
 
+/// Pads that are not round, or not whole, hold other moments at other angles.
+int points_of(double turn) {
+  constexpr double kTurn = 0.3;  // [rad] between two looks
+  return static_cast<int>(std::clamp(std::ceil(std::abs(turn) / kTurn) + 1.0, 5.0, 65.0));
+}
+
 }  // namespace
 
 bool pads_hold_gravity(const Model& model, const PlanarPose& X_HO, const Vec2& g_O,
@@ -71,7 +78,8 @@ bool pads_hold_gravity(const SearchModel& search, const Move& move, Work& work) 
   const Model& model = *search.model;
   const Vec2& g_O = model.contacts[search.contacts[move.contact].contact].g_O;
   if (g_O.isZero(0.0)) return true;
-  const int points = search.exact_everywhere ? 2 : 5;  // the load of a disc is convex
+  const int points = search.exact_everywhere ? 2  // the load of a disc is convex
+                                             : points_of(move.to.theta - move.from.theta);
   for (int i = 0; i < points; ++i) {
     // The ends first: gravity is lost there before it is lost between them.
     const int place = i == 0 ? 0 : i == 1 ? points - 1 : i - 1;

@@ -7,6 +7,7 @@
 #include "planner/goal_cover.h"
 #include "planner/planner.h"
 #include "planner/refuse.h"
+#include "scene/pad_quadrature.h"
 
 namespace prehensile {
 namespace {
@@ -39,22 +40,35 @@ bool coordinate_is_off(const std::vector<Vec2>& outline, double theta, bool is_x
   return wanted + slack < low || wanted - slack > high;
 }
 
+/// Where the finger axis may be for the pads to touch: of the round side of a can, as far
+/// from its middle line as the pads reach.
+std::vector<Vec2> touchable_face(const Model& model) {
+  std::vector<Vec2> face = model.pad_face;
+  if (!model.cross_section) return face;
+  const auto& cylinder = std::get<CylinderShape>(model.scene.object.shape);
+  const int across = cylinder.axis == Axis::kX ? 1 : 0;
+  const double reach = pad_reach(in_plane_equivalent(model.scene.gripper.pad));
+  for (Vec2& vertex : face) vertex[across] = std::clamp(vertex[across], -reach, reach);
+  return face;
+}
+
 bool verify_goal_off_object(const Model& model, std::string* why) {
   const Goal& goal = *model.scene.goal;
+  const std::vector<Vec2> face = touchable_face(model);
   double reach = 0.0;
-  for (const Vec2& vertex : model.pad_face) reach = std::max(reach, vertex.norm());
+  for (const Vec2& vertex : face) reach = std::max(reach, vertex.norm());
   const bool off = for_all_goal_angles(goal, [&](double theta, double half_step) {
     const double slack = place_tolerance(goal) + 1e-9;
     if (goal.x && goal.y) {
       const Vec2 position{*goal.x, *goal.y};
       const Vec2 p_OF = -rotated(-theta, position);
-      return depth_inside(model.pad_face, p_OF) < -slack - half_step * position.norm();
+      return depth_inside(face, p_OF) < -slack - half_step * position.norm();
     }
     const double room = slack + half_step * reach;
-    return (goal.x && coordinate_is_off(model.pad_face, theta, true, *goal.x, room)) ||
-           (goal.y && coordinate_is_off(model.pad_face, theta, false, *goal.y, room));
+    return (goal.x && coordinate_is_off(face, theta, true, *goal.x, room)) ||
+           (goal.y && coordinate_is_off(face, theta, false, *goal.y, room));
   });
-  return off || refuse(why, "a pose of the goal has the finger axis on the object");
+  return off || refuse(why, "at a pose of the goal the pads may touch the object");
 }
 
 /// Power that gravity gains over friction in a twist, at least, when the object turns by

@@ -7,6 +7,7 @@
 #include "planner/chain.h"
 #include "planner/confines.h"
 #include "planner/goal.h"
+#include "planner/holding.h"
 #include "planner/roll_step.h"
 
 namespace prehensile {
@@ -61,7 +62,7 @@ class Slopes {
 
  private:
   int count_;
-  std::array<double, 3> low_{}, high_{};
+  std::array<double, std::tuple_size_v<decltype(KappaSet::intervals)>> low_{}, high_{};
   double total_ = 0.0;
 };
 
@@ -348,9 +349,11 @@ std::optional<PushStep> PushSteps::joined(const PushState& from, const PushState
 
 bool PushSteps::move_works(int contact, const FlatState& from,
                            const FlatState& to) noexcept {
+  const Move move{contact, from, to};
   return move_sticks(search_, contact, from, to, stick_tests_) &&
-         exact_slack(search_, {contact, from, to}, stick_tests_) >= -kStickTolerance &&
-         is_confined(search_, {contact, from, to}, stick_tests_);
+         exact_slack(search_, move, stick_tests_) >= -kStickTolerance &&
+         pads_hold_gravity(search_, move, stick_tests_) &&
+         is_confined(search_, move, stick_tests_);
 }
 
 int PushSteps::contact_that_moves(const FlatState& from, const FlatState& to,

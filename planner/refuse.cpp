@@ -12,7 +12,7 @@ namespace {
 std::string sentence(Proof::Kind kind) {
   switch (kind) {
     case Proof::Kind::kGoalOffObject:
-      return "at every pose of the goal the finger axis is off the object";
+      return "at every pose of the goal the pads are off the object";
     case Proof::Kind::kStartFalls:
       return "at the start the grasp does not hold the object against gravity";
     case Proof::Kind::kGoalFalls:

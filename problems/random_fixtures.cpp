@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include "mechanics/certificate.h"
 #include "mechanics/model.h"
 #include "problems/push_chain.h"
 #include "problems/tee_prism.h"
@@ -150,6 +151,15 @@ Scene random_scene(const FixtureRange& range, RandomStream& random) {
   return scene;
 }
 
+/// By the pads as they lie there: `held_by_all` knows them whole only.
+bool held_by_pads(const Model& model, const PlanarPose& X_HO) {
+  return std::all_of(model.contacts.begin(), model.contacts.end(),
+                     [&](const PushContact& contact) {
+                       const PlanarGrasp grasp = grasp_at(model, X_HO, contact.g_O);
+                       return grasp.count > 0 && gravity_slack(grasp) > 0.0;
+                     });
+}
+
 /// A place for the pads that every contact leaves held, at any angle.
 std::optional<PlanarPose> held_place(const Model& model, RandomStream& random) {
   const std::vector<Vec2>& face = model.pad_face;
@@ -162,8 +172,10 @@ std::optional<PlanarPose> held_place(const Model& model, RandomStream& random) {
   for (int i = 0; i < 200; ++i) {
     const Vec2 p_OF{random.in(low.x(), high.x()), random.in(low.y(), high.y())};
     const double theta = random.in(-kPi, kPi);
-    if (depth_inside(face, p_OF) > 2e-3 && held_by_all(model, p_OF)) {
-      return pose_from_finger(p_OF, theta);
+    const PlanarPose X_HO = pose_from_finger(p_OF, theta);
+    if (depth_inside(face, p_OF) > 2e-3 && held_by_all(model, p_OF) &&
+        held_by_pads(model, X_HO)) {
+      return X_HO;
     }
   }
   return std::nullopt;

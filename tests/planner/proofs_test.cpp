@@ -40,6 +40,32 @@ TEST(Proofs, GoalOffTheObject) {
   expect_refusal(scene, Proof::Kind::kGoalOffObject);
 }
 
+/// The pads touch a can along its middle line only: beside it they hold nothing, and a
+/// goal that some pose of reaches the line is not refused.
+TEST(Proofs, GoalBesideTheMiddleLineOfACan) {
+  Random random(12);
+  int refused = 0;
+  for (int i = 0; i < 300; ++i) {
+    Scene scene = random_regrasp(RegraspFamily::kCylinder, 4, i % 30).scene;
+    const auto& can = std::get<CylinderShape>(scene.object.shape);
+    const Vec2 p_OF = random.in_box(1.1 * can.radius, 0.4 * can.length);
+    scene.goal = goal_at(can.axis == Axis::kY ? p_OF : perp(p_OF), random.in(-kPi, kPi));
+    const Model model = prepare(scene);
+    std::string why;
+    const bool off = verify(model, Proof{.kind = Proof::Kind::kGoalOffObject}, &why);
+    refused += off;
+    for (int k = 0; k < 40; ++k) {
+      const Goal& goal = *scene.goal;
+      const PlanarPose X_HO{*goal.x + random.in(-0.7, 0.7) * goal.position_tolerance,
+                            *goal.y + random.in(-0.7, 0.7) * goal.position_tolerance,
+                            *goal.theta + random.in(-1.0, 1.0) * goal.angle_tolerance};
+      EXPECT_FALSE(off && pads_on_object(model, X_HO)) << i;
+    }
+  }
+  EXPECT_GT(refused, 60);
+  EXPECT_LT(refused, 290);
+}
+
 TEST(Proofs, GoalAtTheBorderIsNotRefused) {
   Scene scene = walled_square();
   scene.goal = goal_at({-0.0505, 0.0}, 0.1);  // within the tolerance of a goal on it

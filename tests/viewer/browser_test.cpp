@@ -40,7 +40,7 @@ std::string opened(const std::string& program, const Folder& folder,
   const Ended ended =
       run("timeout 120 '" + program + "' --headless --no-sandbox --no-first-run " +
           "--disable-background-networking --enable-unsafe-swiftshader " +
-          "--use-angle=swiftshader --virtual-time-budget=10000 --enable-logging=stderr " +
+          "--use-angle=swiftshader --virtual-time-budget=60000 --enable-logging=stderr " +
           "--user-data-dir='" + (folder / "profile").string() + "' --dump-dom 'file://" +
           file.string() + moment + "' 2>&1");
   EXPECT_EQ(ended.status, 0) << ended.out.substr(0, 500);

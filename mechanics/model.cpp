@@ -59,20 +59,27 @@ PushContact make_contact(const Scene& scene, int pusher_index, const Face& face,
   return contact;
 }
 
+/// Over or under that of the scene by more than this, a grip force is none to push with.
+constexpr double kMostGripShare = 1e6;
+
 /// The contacts again with other grip forces: the ends of the range and its middle.
 void add_other_grips(const Scene& scene, Model& model) {
   const Gripper& gripper = scene.gripper;
-  if (!gripper.grip_range || !(gripper.grip_force > 0.0)) return;
-  if (scene.g_W.isZero()) {
-    model.decisions.push_back({"other grip forces of gripper.grip_range",
-                               "without gravity they only scale the forces"});
-    return;
+  if (!gripper.grip_range) return;
+  const auto say = [&model](const char* why) {
+    model.decisions.push_back({"other grip forces of gripper.grip_range", why});
+  };
+  if (scene.g_W.isZero()) return say("without gravity they only scale the forces");
+  const double least = (*gripper.grip_range)[0];
+  const double greatest = (*gripper.grip_range)[1];
+  if (!(gripper.grip_force * kMostGripShare > greatest &&
+        least * kMostGripShare > gripper.grip_force)) {
+    return say("they are a million times the scene's own, or a millionth");
   }
-  const auto& [least, greatest] =
-      std::pair((*gripper.grip_range)[0], (*gripper.grip_range)[1]);
   std::vector<double> forces = {least};
-  if (greatest > least)
+  if (greatest > least) {
     forces.insert(forces.end(), {std::sqrt(least * greatest), greatest});
+  }
   const std::size_t own = model.contacts.size();
   for (const double force : forces) {
     if (force == gripper.grip_force) continue;

@@ -70,7 +70,7 @@ Eigen::Isometry3d pose_of(const HandPose& hand) {
 /// One model of MuJoCo whose hand is led by us.
 class Simulation {
  public:
-  Simulation(const Stage& stage, ModelPointer model)
+  explicit Simulation(ModelPointer model)
       : model_(std::move(model)), data_(mj_makeData(model_.get())) {
     object_ = mj_name2id(model_.get(), mjOBJ_BODY, std::string(kObject).c_str());
     first_of_object_ = model_->jnt_qposadr[model_->body_jntadr[object_]];
@@ -275,7 +275,7 @@ class Replayer {
   Replayer(const Model& model, const Stage& stage, ModelPointer loaded)
       : model_(model),
         stage_(stage),
-        simulation_(stage, std::move(loaded)),
+        simulation_(std::move(loaded)),
         X_HO_(in_space(model, stage.pushes.front().start)),
         grip_(grip_force_on_way(model, stage.pushes, 0)) {
     simulation_.grip(grip_);

@@ -7,24 +7,6 @@
 namespace prehensile {
 namespace {
 
-bool same_place(const PushContact& a, const PushContact& b) {
-  return a.pusher == b.pusher && a.face == b.face;
-}
-
-/// The contact of the same pusher and face in a varied scene, or -1. Grip forces vary
-/// with the scene, their order does not.
-int same_contact(const Model& nominal, const Model& other, int contact) {
-  const PushContact& wanted = nominal.contacts[static_cast<std::size_t>(contact)];
-  int before = 0;
-  for (int i = 0; i < contact; ++i) before += same_place(nominal.contacts[i], wanted);
-  for (std::size_t i = 0; i < other.contacts.size(); ++i) {
-    if (same_place(other.contacts[i], wanted) && before-- == 0) {
-      return static_cast<int>(i);
-    }
-  }
-  return -1;
-}
-
 void set_contact(Push& push, int contact) {
   std::visit([contact](auto& kind) { kind.contact = contact; }, push);
 }
@@ -47,7 +29,7 @@ PlanTrial try_plan(const Model& model, const Plan& plan, const UncertaintyBox& b
       other = prepare(varied.scene, model.options);
     }
     trial.failed_push = static_cast<int>(i);
-    const int contact = same_contact(model, *other, contact_of(varied.push));
+    const int contact = counterpart(model, contact_of(varied.push), *other);
     if (contact < 0) {
       trial.is_scene = false;
       return trial;

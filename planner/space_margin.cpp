@@ -15,16 +15,15 @@ double& at(BoxPoint& point, Unknown unknown) {
   return point[static_cast<std::size_t>(unknown)];
 }
 
-std::string fault_of_member(const UncertainPush& member, int points_per_pad,
+std::string fault_of_member(const Model& nominal, const UncertainPush& member,
                             const TransitionOptions& options) {
   const char* kWithin = " within the margin";
   if (!check(member.scene).empty()) return std::string("no possible scene") + kWithin;
-  const Model model = prepare(member.scene, {.points_per_pad = points_per_pad});
-  const int contact = contact_of(member.push);
-  if (contact >= static_cast<int>(model.contacts.size())) {
-    return std::string("no such contact") + kWithin;
-  }
-  const Transition done = apply(model, member.start, member.push, options);
+  const Model model = prepare(member.scene, nominal.options);
+  LinearPush push = as_linear(member.push);
+  push.contact = counterpart(nominal, push.contact, model);
+  if (push.contact < 0) return std::string("no such contact") + kWithin;
+  const Transition done = apply(model, member.start, push, options);
   if (!done.completed()) return std::string(name(done.status)) + kWithin;
   if (done.slipped > kSlip) return std::string("it slips in space") + kWithin;
   return {};
@@ -54,8 +53,7 @@ std::string space_margin_fault(const Model& model, const PlannedPush& planned,
     UncertainPush member = vary(model.scene, planned.start, push, box, BoxPoint{});
     member.scene.g_W.setZero();
     member.scene.g_Wz = 0.0;
-    const std::string fault =
-        fault_of_member(member, model.options.points_per_pad, options);
+    const std::string fault = fault_of_member(model, member, options);
     if (!fault.empty()) return fault + ", without gravity";
   }
   if (box.active().empty()) return {};
@@ -69,7 +67,7 @@ std::string space_margin_fault(const Model& model, const PlannedPush& planned,
     at(point, Unknown::kCentreOfMassX) = contact.t.x() < 0.0 ? -along : along;
     at(point, Unknown::kCentreOfMassY) = contact.t.y() < 0.0 ? -along : along;
     const UncertainPush member = vary(model.scene, planned.start, push, box, point);
-    std::string fault = fault_of_member(member, model.options.points_per_pad, options);
+    std::string fault = fault_of_member(model, member, options);
     if (!fault.empty()) return fault;
   }
   return {};

@@ -183,4 +183,21 @@ UncertainPush vary(const Scene& scene, const Grasp& start, const Push& push,
   return out;
 }
 
+int counterpart(const Model& nominal, int contact, const Model& varied) noexcept {
+  const PushContact& wanted = nominal.contacts[static_cast<std::size_t>(contact)];
+  const auto same_place = [&wanted](const PushContact& other) {
+    return other.pusher == wanted.pusher && other.face == wanted.face;
+  };
+  // Grip forces vary with the scene, their order does not.
+  int before = 0;
+  for (int i = 0; i < contact; ++i) before += same_place(nominal.contacts[i]) ? 1 : 0;
+  int own = -1;
+  for (int i = 0; i < static_cast<int>(varied.contacts.size()); ++i) {
+    if (!same_place(varied.contacts[i])) continue;
+    if (own < 0) own = i;
+    if (before-- == 0) return i;
+  }
+  return own;
+}
+
 }  // namespace prehensile

@@ -71,6 +71,11 @@ TEST(Model, OtherGripsAreFurtherContacts) {
   EXPECT_EQ(prepare(scene, {.other_grips = false}).contacts.size(), 3u);
   scene.g_W.setZero();  // they would move alike
   EXPECT_EQ(prepare(scene).contacts.size(), 3u);
+  scene.g_W = {0.0, -9.81};
+  scene.gripper.grip_force = 1e-300;
+  EXPECT_EQ(prepare(scene).contacts.size(), 3u);
+  scene.gripper.grip_force = 0.0;
+  EXPECT_EQ(prepare(scene).contacts.size(), 3u);
 }
 
 TEST(Model, ShortLinesCoverPartOfTheFace) {

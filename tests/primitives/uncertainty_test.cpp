@@ -42,6 +42,29 @@ TEST(Uncertainty, GripForcesOfARangeMoveWithTheGrip) {
   EXPECT_NEAR((*varied.gripper.grip_range)[1], 7.7, 1e-12);
 }
 
+TEST(Uncertainty, ContactsOfVariedScenesAreFoundAgain) {
+  Scene scene = random_push(3, 1).scene;
+  scene.g_W = {0.0, -9.81};
+  scene.gripper.grip_force = 10.0;
+  scene.gripper.grip_range = Vec2(5.0, 40.0);
+  const Model model = prepare(scene);
+  UncertaintyBox box;
+  box[Unknown::kGripForce] = 0.1;
+  BoxPoint up{};
+  up[static_cast<std::size_t>(Unknown::kGripForce)] = 1.0;
+  Scene varied = vary(scene, scene.start, LinearPush{}, box, up).scene;
+  const int count = static_cast<int>(model.contacts.size());
+  for (int i = 0; i < count; ++i) EXPECT_EQ(counterpart(model, i, prepare(varied)), i);
+  varied.g_W.setZero();  // one grip stands for all
+  const Model weightless = prepare(varied);
+  for (int i = 0; i < count; ++i) {
+    const int own = i % static_cast<int>(weightless.contacts.size());
+    EXPECT_EQ(counterpart(model, i, weightless), own);
+  }
+  varied.pushers.clear();
+  EXPECT_EQ(counterpart(model, 0, prepare(varied)), -1);
+}
+
 TEST(Uncertainty, EachUnknownMovesItsOwnField) {
   const RandomPush random = random_push(3, 1);
   const Scene& scene = random.scene;

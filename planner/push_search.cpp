@@ -1,8 +1,10 @@
 #include "planner/push_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "planner/bounds.h"
 #include "planner/catalogue.h"
@@ -167,6 +169,61 @@ bool plan_in_shares(const SearchModel& search, const Grasp& start, const Goal& g
   return true;
 }
 
+bool rolls_on_way(const SearchModel& search, Plan plan, double dpsi,
+                  const PlanOptions& options) {
+  return insert_roll(*search.model, dpsi, search.margin, options.transition, plan);
+}
+
+/// Grasps at which the object can be rolled by dpsi: along the middle of a can, at angles
+/// all around; first those that are the shortest way from `start`.
+std::vector<Grasp> roll_places(const SearchModel& search, const Grasp& start, double dpsi,
+                               const PlanOptions& options) {
+  constexpr std::array kAlong = {0.0, 0.12, -0.12, 0.25, -0.25};  // of the length
+  constexpr int kAngles = 12;
+  const auto& can = std::get<CylinderShape>(search.model->scene.object.shape);
+  const Vec2 axis = can.axis == Axis::kX ? Vec2::UnitX() : Vec2::UnitY();
+  std::vector<Grasp> grasps;
+  for (const double share : kAlong) {
+    for (int k = 0; k < kAngles; ++k) {
+      const double theta = start.X_HO.theta + 2.0 * std::numbers::pi * k / kAngles;
+      Plan still;
+      still.start = {pose_from_finger(share * can.length * axis, wrapped(theta)),
+                     start.psi};
+      if (rolls_on_way(search, still, dpsi, options)) grasps.push_back(still.start);
+    }
+  }
+  const auto way = [&](const Grasp& grasp) {
+    return flat_distance(search, flat_state(start), flat_state(grasp));
+  };
+  std::stable_sort(grasps.begin(), grasps.end(),
+                   [&](const Grasp& a, const Grasp& b) { return way(a) < way(b); });
+  return grasps;
+}
+
+/// A way over a place where the object can be rolled; the plan stays as it is where none
+/// is found.
+void go_by_roll_place(const SearchModel& search, const Goal& planar, double dpsi,
+                      const PlanOptions& options, Work& work, Plan& plan) {
+  constexpr std::size_t kMostPlaces = 4;  // that are planned for
+  std::vector<Grasp> places = roll_places(search, plan.start, dpsi, options);
+  if (places.size() > kMostPlaces) places.resize(kMostPlaces);
+  for (const Grasp& place : places) {
+    const PlanarPose& X_HO = place.X_HO;
+    Goal there = planar;
+    there.x = X_HO.x;
+    there.y = X_HO.y;
+    there.theta = X_HO.theta;
+    Plan detour = blank_plan(search, plan.start, options);
+    const bool arrives = reaches(there, plan.start) ||
+                         plan_in_shares(search, plan.start, there, options, work, detour);
+    if (arrives && plan_in_shares(search, detour.goal, planar, options, work, detour) &&
+        rolls_on_way(search, detour, dpsi, options)) {
+      plan = std::move(detour);
+      return;
+    }
+  }
+}
+
 }  // namespace
 
 std::optional<Move> direct_push(const SearchModel& search, const FlatState& start,
@@ -219,6 +276,7 @@ void conclude_search(const SearchModel& search, const Goal& goal,
       !insert_roll(*search.model, dpsi, search.margin, options.transition, plan)) {
     plan.status = PlanStatus::kBudgetSpent;
     plan.message = "no contact rolls the object at any pose of the plan";
+    plan.pushes.clear();
     return;
   }
   plan.status = PlanStatus::kReachedGoal;
@@ -236,6 +294,10 @@ Plan search_pushes(const SearchModel& search, const Grasp& start, const Goal& go
   const Goal planar = planar_goal(goal);
   const bool in_plane = reaches(planar, start) ||
                         plan_in_shares(search, start, planar, options, work, plan);
+  const double dpsi = roll_needed(goal, start.psi);
+  if (in_plane && dpsi != 0.0 && !rolls_on_way(search, plan, dpsi, options)) {
+    go_by_roll_place(search, planar, dpsi, options, work, plan);
+  }
   plan.stick_tests = work.stick_tests;
   plan.propagations = work.propagations;
   conclude_search(search, goal, options, in_plane, limits, plan);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/planner.h"
+#include "planner/replay.h"
 #include "tests/planner/planner_cases.h"
 #include "tests/support/random.h"
 
@@ -49,6 +50,41 @@ TEST(RollStep, SlackTellsWhichRollsComplete) {
   }
   EXPECT_GT(rolls, 200);
   EXPECT_GT(refused, 200);
+}
+
+/// Held near its end a can would tilt instead of rolling: it is carried to where it rolls.
+TEST(RollStep, GoesWhereTheObjectRolls) {
+  Scene scene = can_on_floor();
+  scene.object.mass = 0.1;
+  for (const double angle : {0.0, std::numbers::pi}) {
+    scene.pushers.push_back({.name = "wall" + std::to_string(scene.pushers.size()),
+                             .feature = LineFeature{},
+                             .friction = 0.8,
+                             .normal_angle = angle});
+  }
+  scene.start.X_HO = pose_from_finger({0.038, 0.0}, 0.0);
+  scene.goal = testing::goal_at({0.037, 0.003}, 0.1);
+  scene.goal->psi = 1.5;
+  const Model model = prepare(scene);
+  Plan there;
+  there.start = scene.start;
+  ASSERT_FALSE(insert_roll(model, 1.5, Margin{}, {}, there));
+  const Plan plan = plan_regrasp(model);
+  ASSERT_EQ(plan.status, PlanStatus::kReachedGoal) << plan.message;
+  EXPECT_GE(plan.pushes.size(), 3u);
+  EXPECT_TRUE(replay(model, plan).agrees);
+}
+
+/// A plan that the roll is missing from is none, and has no pushes.
+TEST(RollStep, WhatCannotRollHasNoPushes) {
+  Scene scene = can_on_floor();
+  scene.object.p_OCom = {0.0, 0.001};  // off the axis
+  scene.goal = testing::goal_at({0.0, -0.004}, 0.0);
+  scene.goal->psi = 1.5;
+  const Plan plan = plan_regrasp(prepare(scene));
+  EXPECT_EQ(plan.status, PlanStatus::kBudgetSpent);
+  EXPECT_NE(plan.message.find("no contact rolls"), std::string::npos) << plan.message;
+  EXPECT_TRUE(plan.pushes.empty());
 }
 
 TEST(RollStep, LoosensTheGripToRoll) {

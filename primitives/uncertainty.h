@@ -106,8 +106,8 @@ struct UncertainPush {
 UncertainPush vary(const Scene& scene, const Grasp& start, const Push& push,
                    const UncertaintyBox& box, const BoxPoint& at);
 
-/// The contact of a varied scene that stands for one of the nominal: the same pusher, face
-/// and grip force, or the scene's own where no other is tried; or -1.
+/// The contact of a varied scene that stands for one of the nominal: the same pusher,
+/// face and grip force, or the scene's own where no other is tried; or -1.
 int counterpart(const Model& nominal, int contact, const Model& varied) noexcept;
 
 }  // namespace prehensile

@@ -52,7 +52,8 @@ TEST(RollStep, SlackTellsWhichRollsComplete) {
   EXPECT_GT(refused, 200);
 }
 
-/// Held near its end a can would tilt instead of rolling: it is carried to where it rolls.
+/// Held near its end a can would tilt instead of rolling: it is carried to where it
+/// rolls.
 TEST(RollStep, GoesWhereTheObjectRolls) {
   Scene scene = can_on_floor();
   scene.object.mass = 0.1;

@@ -15,13 +15,23 @@ namespace {
 
 constexpr double kPoseAgreement = 1e-6;  // [m] and [rad]
 
-double pose_error(const Grasp& a, const Grasp& b) {
-  return std::max({std::hypot(a.X_HO.x - b.X_HO.x, a.X_HO.y - b.X_HO.y),
-                   std::abs(a.X_HO.theta - b.X_HO.theta), std::abs(a.psi - b.psi)});
+bool is_free_to_turn(const Model& model, const Push& push) {
+  return !std::holds_alternative<Roll>(push) &&
+         model.contacts[static_cast<std::size_t>(contact_of(push))].is_point;
+}
+
+/// What sticks rides with its pusher exactly; an object that turns about a point is
+/// followed as well as the transition function does that, which weighs angles with c.
+double pose_error(const Model& model, const PlannedPush& push, const Grasp& end) {
+  const Grasp& planned = push.end;
+  const double angle = std::abs(end.X_HO.theta - planned.X_HO.theta);
+  const double scale = is_free_to_turn(model, push.push) ? model.c : 1.0;
+  return std::max({std::hypot(end.X_HO.x - planned.X_HO.x, end.X_HO.y - planned.X_HO.y),
+                   scale * angle, std::abs(end.psi - planned.psi)});
 }
 
 /// What is wrong with a push, or an empty text.
-std::string fault_of(const PlannedPush& push, const Transition& done,
+std::string fault_of(const Model& model, const PlannedPush& push, const Transition& done,
                      const TransitionOptions& options) {
   if (!done.completed()) {
     return std::string(name(done.status)) +
@@ -33,10 +43,58 @@ std::string fault_of(const PlannedPush& push, const Transition& done,
   if (!(push.slack >= -kStickTolerance)) return "it slips within the margin";
   const bool rolls = std::holds_alternative<Roll>(push.push);
   if (!rolls && done.slipped > kPoseAgreement) return "the object slips on the pusher";
-  if (!(pose_error(done.end, push.end) <= kPoseAgreement)) {
+  if (!(pose_error(model, push, done.end) <= kPoseAgreement)) {
     return "the object ends elsewhere";
   }
   return {};
+}
+
+/// A place of a push where its slack is looked at: the pose, and how the object moves
+/// there relative to the hand, in a common scale.
+struct Instant {
+  PlanarPose X_HO;
+  Vec2 velocity = Vec2::Zero();  ///< [m] of the finger axis' place, in O
+  double omega = 0.0;            ///< [rad]
+  double travelled = 0.0;        ///< [m] by the finger axis in O since the push began
+};
+
+double slack_at(const Model& model, const LinearPush& push, const Instant& at,
+                const Margin& margin) {
+  const PushContact& contact = model.contacts[static_cast<std::size_t>(push.contact)];
+  const double v = at.velocity.norm();
+  const Vec2 e = v > 0.0 ? Vec2(at.velocity / v) : contact.n;
+  return exact_stick_test(model, contact, push.place, at.X_HO, e, v, at.omega, margin,
+                          at.travelled)
+      .slack;
+}
+
+/// The object turns about a point as the pads let it: looked at along the way that it
+/// takes, moving as it does there.
+double slack_by_point(const Model& model, const Grasp& start, const LinearPush& push,
+                      int parts, const Margin& margin) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const PushContact& contact = model.contacts[static_cast<std::size_t>(push.contact)];
+  std::vector<Sample> trace;
+  if (!apply(model, start, push, {.max_step = 1.0 / parts}, &trace).completed()) {
+    return -kInfinity;
+  }
+  double slack = kInfinity;
+  Instant at;
+  Vec2 last = finger_in_object(start.X_HO);
+  for (const Sample& sample : trace) {
+    at.X_HO = sample.grasp.X_HO;
+    const Vec2 p_OF = finger_in_object(at.X_HO);
+    at.travelled += (p_OF - last).norm();
+    last = p_OF;
+    const PlanarInstant instant = solve_planar(
+        grasp_at(model, at.X_HO, contact.g_O),
+        drive_at(contact, push.place, at.X_HO, pusher_twist(push, start.X_HO, sample.s)));
+    if (instant.status != InstantStatus::kMoves) return -kInfinity;
+    at.velocity = rotated(-at.X_HO.theta, instant.V_HO.head<2>());
+    at.omega = instant.V_HO[2];
+    slack = std::min(slack, slack_at(model, push, at, margin));
+  }
+  return slack;
 }
 
 }  // namespace
@@ -53,6 +111,7 @@ double push_slack(const Model& model, const Grasp& start, const Push& push,
   const double parts =
       std::max(linear.travel / kPointTravel, std::abs(linear.turn) / kPointTurn);
   const int points = static_cast<int>(std::clamp(std::ceil(parts) + 1.0, 3.0, 50.0));
+  if (contact.is_point) return slack_by_point(model, start, linear, points - 1, margin);
   double slack = has_ring_pads(model) ? ring_slack(model, contact, p_OF, linear.e,
                                                    linear.travel, linear.turn)
                                       : std::numeric_limits<double>::infinity();
@@ -60,10 +119,8 @@ double push_slack(const Model& model, const Grasp& start, const Push& push,
     const double s = static_cast<double>(i) / (points - 1);
     const PlanarPose X_HO = pose_from_finger(p_OF - s * linear.travel * linear.e,
                                              start.X_HO.theta + s * linear.turn);
-    const StickTest test =
-        exact_stick_test(model, contact, linear.place, X_HO, linear.e, linear.travel,
-                         linear.turn, margin, s * linear.travel);
-    slack = std::min(slack, test.slack);
+    const Instant at{X_HO, linear.travel * linear.e, linear.turn, s * linear.travel};
+    slack = std::min(slack, slack_at(model, linear, at, margin));
   }
   return slack;
 }
@@ -103,7 +160,7 @@ std::string fault_at_half_step(const Model& model, const PlannedPush& push,
   half.max_step = 0.5 * options.max_step;
   const Transition done = apply(model, push.start, push.push, half);
   plan.instants += done.instants;
-  return fault_of(push, done, half);
+  return fault_of(model, push, done, half);
 }
 
 }  // namespace
@@ -121,7 +178,7 @@ bool check_exactly(const Model& model, const TransitionOptions& options, Plan& p
     push.slack =
         push_slack(model, push.start, push.push, carried(plan.margin, travelled));
     travelled += travel_in_pad_plane(push.push);
-    std::string fault = fault_of(push, done, options);
+    std::string fault = fault_of(model, push, done, options);
     if (fault.empty()) fault = fault_at_half_step(model, push, options, plan);
     if (fault.empty()) fault = space_margin_fault(model, push, plan.margin, options);
     if (fault.empty()) continue;

@@ -11,8 +11,8 @@
 namespace prehensile {
 
 /// Least slack over the margin box along a push that starts at this grasp, by the real
-/// pad, in the pad plane; points every 2 mm and 0.1 rad, at most 50. Infinity for a roll,
-/// which has no margin box.
+/// pad, in the pad plane; points every 2 mm and 0.1 rad, at most 50, along the way that
+/// the object takes. Infinity for a roll, which has no margin box.
 double push_slack(const Model& model, const Grasp& start, const Push& push,
                   const Margin& margin);
 
@@ -25,7 +25,8 @@ double travel_in_pad_plane(const Push& push);
 
 /// Fills force, slack, certificate and error estimate of every push and counts instants.
 /// True if each push completes without slip, certified, with slack >= 0 over plan.margin,
-/// and ends within 1e-6 of where the plan says, also at half the step, within limits and
+/// and ends within 1e-6 of where the plan says ([m] and [rad]; where a point pushes, [m]
+/// with angles weighing c), also at half the step, within limits and
 /// clear of obstacles; else `why` names the first that does not.
 bool check_exactly(const Model& model, const TransitionOptions& options, Plan& plan,
                    std::string* why);

@@ -1,18 +1,23 @@
 #include "planner/meet_end.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include <Eigen/LU>
 
 namespace prehensile {
 namespace {
 
-constexpr double kMet = 2e-7;  // [m], angles times c
+constexpr double kMet = 2e-7;     // [m], angles times c
+constexpr double kSteady = 8e-7;  // [m], with half the step; and of slip
 constexpr int kMostSteps = 12;
 constexpr double kProbe = 1e-4;   // change for a derivative, as a share of what it is of
 constexpr double kLongest = 0.3;  // step, as such a share
+constexpr std::array kParts = {1, 2, 4, 8};  // that a push is divided into
 
 /// A push by a point as three numbers: turn of its direction [rad], and changes of travel
 /// and place as shares of `length`.
@@ -41,20 +46,32 @@ class EndOfPush {
         aim_(aim),
         instants_(instants) {}
 
-  /// By how much the end is missed [m]; nothing where the push does not get to an end.
-  std::optional<Vec3> missed(const Vec3& u) const {
+  /// By how much the end is missed [m]; nothing where the push does not get to an end, or
+  /// slips on its way.
+  std::optional<Vec3> missed(const Vec3& u) const { return missed(u, options_); }
+
+  /// Whether the end is met by steps of half the length as well: it may hang on errors of
+  /// the steps where the object turns about a point that is far ahead of the pads.
+  bool is_steady(const Vec3& u) const {
+    TransitionOptions half = options_;
+    half.max_step *= 0.5;
+    const std::optional<Vec3> off = missed(u, half);
+    return off && off->norm() <= kSteady;
+  }
+
+ private:
+  std::optional<Vec3> missed(const Vec3& u, const TransitionOptions& options) const {
     const std::optional<LinearPush> push = aim_.at(u);
     if (!push) return std::nullopt;
-    const Transition done = apply(model_, planned_.start, *push, options_);
+    const Transition done = apply(model_, planned_.start, *push, options);
     instants_ += done.instants;
-    if (!done.completed()) return std::nullopt;
+    if (!done.completed() || done.slipped > kSteady) return std::nullopt;
     const PlanarPose& end = done.end.X_HO;
     const PlanarPose& wanted = planned_.end.X_HO;
     return Vec3(end.x - wanted.x, end.y - wanted.y,
                 model_.c * (end.theta - wanted.theta));
   }
 
- private:
   const Model& model_;
   const TransitionOptions& options_;
   const PlannedPush& planned_;
@@ -104,19 +121,71 @@ std::optional<Vec3> aimed(const EndOfPush& end) {
   return std::nullopt;
 }
 
+/// The push, corrected so that it ends where it is planned to; false if that fails.
+bool meets_end(const Model& model, const TransitionOptions& options, PlannedPush& planned,
+               std::int64_t& instants) {
+  auto& push = std::get<LinearPush>(planned.push);
+  const PushContact& contact = model.contacts[static_cast<std::size_t>(push.contact)];
+  const double half_face = 0.5 * (contact.b - contact.a).norm();
+  const Aim aim{push, std::max(push.travel, model.c), -half_face, half_face};
+  const EndOfPush end(model, options, planned, aim, instants);
+  const std::optional<Vec3> u = aimed(end);
+  if (!u || !end.is_steady(*u)) return false;
+  push = *aim.at(*u);
+  return true;
+}
+
+/// One of so many equal parts of the straight way of a push.
+PlannedPush part_of(const PlannedPush& whole, int part, int parts) {
+  LinearPush push = std::get<LinearPush>(whole.push);
+  const Vec2 p_OF = finger_in_object(whole.start.X_HO);
+  const auto grasp_at_share = [&](double s) {
+    return Grasp{pose_from_finger(p_OF - s * push.travel * push.e,
+                                  whole.start.X_HO.theta + s * push.turn),
+                 whole.start.psi};
+  };
+  PlannedPush piece = whole;
+  if (part > 0) piece.start = grasp_at_share(static_cast<double>(part) / parts);
+  if (part + 1 < parts) piece.end = grasp_at_share((part + 1.0) / parts);
+  push.travel /= parts;
+  push.turn /= parts;
+  piece.push = push;
+  return piece;
+}
+
+/// The push in the fewest parts that all meet their ends; as it is where none do.
+void append_corrected(const Model& model, const TransitionOptions& options,
+                      const PlannedPush& planned, std::vector<PlannedPush>& pushes,
+                      std::int64_t& instants) {
+  for (const int parts : kParts) {
+    const std::size_t before = pushes.size();
+    bool all = true;
+    for (int i = 0; all && i < parts; ++i) {
+      pushes.push_back(part_of(planned, i, parts));
+      all = meets_end(model, options, pushes.back(), instants);
+    }
+    if (all) return;
+    pushes.resize(before);
+  }
+  pushes.push_back(planned);
+}
+
 }  // namespace
 
 void meet_ends(const Model& model, const TransitionOptions& options, Plan& plan) {
-  for (PlannedPush& planned : plan.pushes) {
-    auto* const push = std::get_if<LinearPush>(&planned.push);
-    if (!push || push->travel == 0.0) continue;
-    const PushContact& contact = model.contacts[static_cast<std::size_t>(push->contact)];
-    if (!contact.is_point) continue;
-    const double half_face = 0.5 * (contact.b - contact.a).norm();
-    const Aim aim{*push, std::max(push->travel, model.c), -half_face, half_face};
-    const EndOfPush end(model, options, planned, aim, plan.instants);
-    if (const std::optional<Vec3> u = aimed(end)) *push = *aim.at(*u);
+  std::vector<PlannedPush> pushes;
+  for (const PlannedPush& planned : plan.pushes) {
+    const auto* const push = std::get_if<LinearPush>(&planned.push);
+    const bool turns_freely =
+        push && push->travel > 0.0 &&
+        model.contacts[static_cast<std::size_t>(push->contact)].is_point;
+    if (turns_freely) {
+      append_corrected(model, options, planned, pushes, plan.instants);
+    } else {
+      pushes.push_back(planned);
+    }
   }
+  plan.pushes = std::move(pushes);
 }
 
 }  // namespace prehensile

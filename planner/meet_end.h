@@ -9,8 +9,10 @@ namespace prehensile {
 
 /// Newton's method with secant updates (Broyden, Math. Comp. 19 (1965) 577-593) over
 /// direction, travel and place of each push by a point that ends elsewhere. Three numbers
-/// for the three of a pose: where it finds no such push, nearby, it leaves the one that
-/// is there, for `check_exactly` to refuse. Counts instants.
+/// for the three of a pose. Where it finds no such push, nearby, the straight way of the
+/// push is done in two, four or eight parts, each by a push with a place of its own; if
+/// these do not meet their ends either, the push stays as it is, for `check_exactly` to
+/// refuse. Counts instants.
 void meet_ends(const Model& model, const TransitionOptions& options, Plan& plan);
 
 }  // namespace prehensile

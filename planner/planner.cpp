@@ -83,7 +83,8 @@ void finish(const SearchModel& search, const PlanOptions& options, const Limits&
 /// What one search keeps clear of, and what its plan must then survive.
 struct Clearance {
   Margin margin;
-  double extra_grasp = 0.0;  ///< [m] for what longer ways carry the finger axis off
+  double extra_grasp = 0.0;     ///< [m] for what longer ways carry the finger axis off
+  double extra_friction = 0.0;  ///< share of the pusher's friction that is left unused
 };
 
 /// By how much the ways of a plan carry the finger axis further off than the straight
@@ -111,6 +112,7 @@ Plan attempt(const Model& model, const PlanOptions& options, const Clearance& cl
              Work& work, Found& found) {
   Margin kept = clearance.margin;
   kept.grasp += clearance.extra_grasp;
+  kept.friction = std::min(1.0, kept.friction + clearance.extra_friction);
   const SearchModel search = prepare_search(model, kept);
   if (work.meter) {
     work.meter->enter(kept.is_none() ? "search without margin" : "search");
@@ -141,6 +143,10 @@ Plan attempt(const Model& model, const PlanOptions& options, const Clearance& cl
 /// on the very border fails its check.
 constexpr double kClearOfBorder = 0.2e-3;
 
+/// Share of the friction that a third search leaves unused: what the points of the pads
+/// do to an object that turns about a point is known along its way only.
+constexpr double kUnusedFriction = 0.05;
+
 /// A plan that fails its exact check is searched again, first farther from slipping by
 /// what its detours carry the finger axis off, then with double the margin.
 Plan search_and_check(const Model& model, const PlanOptions& options,
@@ -162,6 +168,9 @@ Plan search_and_check(const Model& model, const PlanOptions& options,
   }
   if (failed_check() && margin.is_none()) {
     again({margin, kClearOfBorder}, "; a little clear of slipping: ");
+    if (failed_check()) {
+      again({margin, kClearOfBorder, kUnusedFriction}, "; farther from it: ");
+    }
   } else if (failed_check()) {
     again({margin.scaled(2.0)}, "; with double the margin: ");
   }

@@ -86,15 +86,27 @@ struct Motion {
   }
 };
 
+/// A point is looked at where it would have to stand at this instant of the move: the
+/// points of a pad pull aside as they turn, so that no one place does for all of it, and
+/// a push that ends where the move does is found later (meet_end.h).
 StickTest pad_test(const SearchModel& search, const Move& move, double place,
                    double share, const Margin& margin) {
-  const PushContact& contact =
-      search.model->contacts[search.contacts[move.contact].contact];
+  const SearchContact& pushing = search.contacts[move.contact];
+  const PushContact& contact = search.model->contacts[pushing.contact];
   const Motion motion(move.from, move.to);
-  return exact_stick_test(*search.model, contact, place,
-                          pose_along(move.from, move.to, share),
-                          motion.direction(contact.n), motion.travel(), motion.omega,
-                          margin, share * motion.travel());
+  const auto test_at = [&](double there, const Margin& over) {
+    return exact_stick_test(*search.model, contact, there,
+                            pose_along(move.from, move.to, share),
+                            motion.direction(contact.n), motion.travel(), motion.omega,
+                            over, share * motion.travel());
+  };
+  if (contact.is_point) {
+    const double wanted = test_at(place, Margin::none()).centre_of_pressure;
+    if (std::isfinite(wanted)) {
+      place = std::clamp(wanted, pushing.place_low, pushing.place_high);
+    }
+  }
+  return test_at(place, margin);
 }
 
 double place_of(const SearchModel& search, const Move& move) {

@@ -316,13 +316,14 @@ TEST(Planner, PlansSurviveTheirMarginBox) {
   }
 }
 
-/// Points that push a box: some plans turn hundreds of times, and what is returned holds
-/// with half the step, too.
+/// One or two walls: some plans turn tens to thousands of times, and what is returned
+/// holds with half the step, too.
 TEST(Planner, PlansOfManyTurnsReplay) {
   FixtureRange range;
-  range.pushers = FixturePushers::kPoints;
+  range.count = {1.0, 2.0};
+  range.goals = GoalsFrom::kRandom;
   int many = 0;
-  for (const int index : {34, 91, 122}) {
+  for (const int index : {11, 50, 102, 107, 143}) {
     const auto problem = random_fixture(range, 1, index);
     ASSERT_TRUE(problem) << index;
     const Model model = prepare(problem->scene);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "planner/confines_check.h"
+#include "planner/point_margin.h"
 #include "planner/ring_pads.h"
 #include "planner/roll_step.h"
 #include "planner/space_margin.h"
@@ -185,7 +186,8 @@ bool check_exactly(const Model& model, const TransitionOptions& options, Plan& p
     if (why) *why = "push " + std::to_string(i + 1) + ": " + fault;
     return false;
   }
-  const std::string fault = confinement_fault(model, plan.pushes);
+  std::string fault = confinement_fault(model, plan.pushes);
+  if (fault.empty()) fault = point_margin_fault(model, plan, options);
   if (!fault.empty()) {
     if (why) *why = fault;
     return false;

@@ -1,7 +1,7 @@
 /// The exact check of a plan found by a search: every push is done by the transition
 /// function with the real pads, in space where it needs that, and sticks over the margin
 /// box at points along it. In space members of the box do the push as well
-/// (space_margin.h).
+/// (space_margin.h), and where points push, the whole plan (point_margin.h).
 #pragma once
 
 #include <string>

@@ -1,6 +1,7 @@
 #include "planner/planner.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <numbers>
@@ -143,12 +144,13 @@ Plan attempt(const Model& model, const PlanOptions& options, const Clearance& cl
 /// on the very border fails its check.
 constexpr double kClearOfBorder = 0.2e-3;
 
-/// Share of the friction that a third search leaves unused: what the points of the pads
-/// do to an object that turns about a point is known along its way only.
-constexpr double kUnusedFriction = 0.05;
+/// Shares of the friction that further searches leave unused: what the points of the pads
+/// do to an object that turns about a point of the pusher is known along its way only.
+constexpr std::array kUnusedFriction = {0.1, 0.25};
 
 /// A plan that fails its exact check is searched again, first farther from slipping by
-/// what its detours carry the finger axis off, then with double the margin.
+/// what its detours carry the finger axis off, then with double the margin, then with
+/// less friction than there is.
 Plan search_and_check(const Model& model, const PlanOptions& options,
                       const Margin& margin, Work& work, Found& found) {
   Plan plan = attempt(model, options, {margin}, work, found);
@@ -168,11 +170,12 @@ Plan search_and_check(const Model& model, const PlanOptions& options,
   }
   if (failed_check() && margin.is_none()) {
     again({margin, kClearOfBorder}, "; a little clear of slipping: ");
-    if (failed_check()) {
-      again({margin, kClearOfBorder, kUnusedFriction}, "; farther from it: ");
-    }
   } else if (failed_check()) {
     again({margin.scaled(2.0)}, "; with double the margin: ");
+  }
+  for (const double unused : kUnusedFriction) {
+    if (!failed_check()) break;
+    again({margin, kClearOfBorder, unused}, "; with friction to spare: ");
   }
   return plan;
 }

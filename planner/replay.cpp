@@ -8,6 +8,7 @@
 #include "planner/confines_check.h"
 #include "planner/exact_check.h"
 #include "planner/planner.h"
+#include "planner/point_margin.h"
 #include "planner/space_margin.h"
 
 namespace prehensile {
@@ -155,7 +156,7 @@ bool poses_connect(const Plan& plan, const ReplayOptions& options) {
 }
 
 std::string first_disagreement(const Model& model, const Plan& plan,
-                               const Replay& replay) {
+                               const ReplayOptions& options, const Replay& replay) {
   if (!plan.usable()) return "the plan does not claim to reach its goal";
   if (!margin_is_sound(plan.margin)) return "the margin is not a box of uncertainty";
   if (!replay.starts_right) return "the plan does not start at the start of the scene";
@@ -170,6 +171,8 @@ std::string first_disagreement(const Model& model, const Plan& plan,
   const bool shifts = plan.margin.grasp + plan.margin.tilt > 0.0;
   if (shifts && !stays_on_object(model, plan, &why)) return why;
   if (!replay.confinement.empty()) return replay.confinement;
+  why = point_margin_fault(model, plan, options.transition);
+  if (!why.empty()) return why;
   if (!replay.reaches_goal) return "the object does not end at the goal";
   if (!replay.costs_right) return "the costs are not those of the pushes";
   if (!replay.bound_right) return "the lower bound of the cost cannot be proved";
@@ -204,7 +207,7 @@ Replay replay(const Model& model, const Plan& plan, const ReplayOptions& options
     result.costs_right = costs_are_right(model, plan);
     result.bound_right = bound_is_right(model, plan);
   }
-  result.why = first_disagreement(model, plan, result);
+  result.why = first_disagreement(model, plan, options, result);
   result.agrees = result.why.empty();
   return result;
 }

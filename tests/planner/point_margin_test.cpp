@@ -1,0 +1,62 @@
+#include "planner/point_margin.h"
+
+#include <gtest/gtest.h>
+
+#include "planner/plan_trial.h"
+#include "planner/planner.h"
+#include "problems/random_fixtures.h"
+
+namespace prehensile {
+namespace {
+
+std::optional<Model> points_around_a_box(std::uint64_t index) {
+  FixtureRange range;
+  range.pushers = FixturePushers::kPoints;
+  const auto problem = random_fixture(range, 1, index);
+  return problem ? std::optional(prepare(problem->scene)) : std::nullopt;
+}
+
+/// Draws of the box other than the corners that the plan was tried at.
+TEST(PointMargin, PlansWithAMarginSurviveTheBox) {
+  constexpr int kDraws = 60;
+  int draws = 0;
+  int stuck = 0;
+  for (std::uint64_t i = 0; i < 40; ++i) {
+    const auto model = points_around_a_box(i);
+    if (!model) continue;
+    PlanOptions options;
+    options.nominal_if_needed = false;
+    const Plan plan = plan_regrasp(*model, options);
+    if (!plan.usable()) continue;
+    for (int k = 0; k < kDraws; ++k) {
+      const BoxPoint at = random_point(i, static_cast<std::uint64_t>(k));
+      ++draws;
+      stuck += try_plan(*model, plan, usual_box(), at).sticks ? 1 : 0;
+    }
+  }
+  EXPECT_GE(draws, 20 * kDraws);
+  EXPECT_GE(stuck, 0.995 * draws) << stuck << " of " << draws;
+}
+
+/// Plans that were made without a margin, and the usual one claimed for them.
+TEST(PointMargin, RefusesPlansThatDoNot) {
+  int refused = 0;
+  for (std::uint64_t i = 0; i < 20; ++i) {
+    const auto model = points_around_a_box(i);
+    if (!model) continue;
+    PlanOptions options;
+    options.margin = Margin::none();
+    Plan plan = plan_regrasp(*model, options);
+    if (!plan.usable()) continue;
+    EXPECT_EQ(point_margin_fault(*model, plan, {}), "") << i;
+    plan.margin = margin_of(*model, usual_box());
+    const std::string fault = point_margin_fault(*model, plan, {});
+    if (fault.empty()) continue;
+    ++refused;
+    EXPECT_NE(fault.find("within the margin"), std::string::npos) << fault;
+  }
+  EXPECT_GE(refused, 3);
+}
+
+}  // namespace
+}  // namespace prehensile

@@ -31,7 +31,7 @@ constexpr int kStride = 10;
 
 /// By so much more than what sticks the field lets a way turn for nothing: its
 /// pieces have few directions, and what sticks changes from node to node. Tried in order.
-constexpr std::array kFreely = {0.06, 0.02};  // [rad]
+constexpr std::array kFreely = {0.06, 0.02, 0.005, 0.0};  // [rad]
 
 /// Levels of the field that are tried, as shares of its value at the goal.
 constexpr std::array kLevels = {0.5, 0.25, 0.75};

@@ -2,41 +2,12 @@
 
 #include <algorithm>
 
-#include "mechanics/certificate_evidence.h"
+#include "mechanics/certificate_findings.h"
 
 namespace prehensile {
 namespace {
 
 using Check = Certificate::Check;
-
-/// Collects the worst violation of each check.
-class Findings {
- public:
-  Findings() {
-    for (CertificateEntry& entry : entries_) entry = {0.0, -1};
-  }
-
-  /// A value that is not a number is the worst of all.
-  void note(Check check, double value, int index) {
-    CertificateEntry& entry = entries_[check];
-    if (std::isnan(entry.value)) return;
-    if (std::isnan(value) || value > entry.value) entry = {value, index};
-  }
-
-  Certificate certificate() const {
-    Certificate result;
-    result.entries = entries_;
-    result.worst = 0.0;
-    for (const CertificateEntry& entry : entries_) {
-      if (!(entry.value <= result.worst)) result.worst = entry.value;
-      if (std::isnan(result.worst)) break;
-    }
-    return result;
-  }
-
- private:
-  std::array<CertificateEntry, Certificate::kCheckCount> entries_;
-};
 
 /// Velocity of the object relative to the pusher at pusher point i, along (n, t).
 Vec2 relative_rate(const PlanarDrive& drive, const PlanarTwist& V_HO, int i) {
@@ -50,7 +21,7 @@ Vec2 relative_rate(const PlanarDrive& drive, const PlanarTwist& V_HO, int i) {
 /// net push reported is the sum of its points.
 void check_newton(const PlanarGrasp& grasp, const PlanarDrive& drive,
                   const PlanarInstant& answer, const CertificateUnits& units,
-                  Findings& findings) {
+                  Findings<Certificate>& findings) {
   PlanarWrench push = PlanarWrench::Zero();
   for (int i = 0; i < answer.pusher_count; ++i) {
     const PusherPoint& point = answer.pusher[i];
@@ -92,7 +63,8 @@ double mislabelled(const PusherPoint& point, double normal, double opening, doub
 
 /// Unilateral contact and Coulomb friction of the pusher, paper eq. (1), (3), (4).
 void check_pusher(const PlanarDrive& drive, const PlanarInstant& answer,
-                  const CertificateUnits& units, int first_index, Findings& findings) {
+                  const CertificateUnits& units, int first_index,
+                  Findings<Certificate>& findings) {
   for (int i = 0; i < drive.count; ++i) {
     const PusherPoint& point = answer.pusher[i];
     const int index = first_index + i;
@@ -119,7 +91,7 @@ void check_pusher(const PlanarDrive& drive, const PlanarInstant& answer,
 /// Coulomb friction of the finger points: bound and direction. At a point that hardly
 /// moves any force within the bound will do, which the projection knows by itself.
 void check_fingers(const PlanarGrasp& grasp, const PlanarInstant& answer,
-                   const CertificateUnits& units, Findings& findings) {
+                   const CertificateUnits& units, Findings<Certificate>& findings) {
   for (int j = 0; j < answer.finger_count; ++j) {
     const Vec2 rate = Vec2(answer.V_HO[0] - answer.V_HO[2] * grasp.y[j],
                            answer.V_HO[1] + answer.V_HO[2] * grasp.x[j]) /
@@ -182,7 +154,7 @@ std::string_view name(Certificate::Check check) {
 
 Certificate certify(const PlanarGrasp& grasp, const PlanarDrive& drive,
                     const PlanarInstant& answer) noexcept {
-  Findings findings;
+  Findings<Certificate> findings;
   const CertificateUnits units = certificate_units(grasp, drive);
   if (!units.sane) {
     findings.note(Check::kEvidence, kNan, -1);

@@ -2,40 +2,13 @@
 
 #include <algorithm>
 
-#include "mechanics/certificate_evidence.h"
+#include "mechanics/certificate_findings.h"
 #include "mechanics/spatial_evidence.h"
 
 namespace prehensile {
 namespace {
 
 using Check = SpatialCertificate::Check;
-
-/// Collects the worst violation of each check; not-a-number is the worst of all.
-class Findings {
- public:
-  Findings() {
-    for (CertificateEntry& entry : entries_) entry = {0.0, -1};
-  }
-
-  void note(Check check, double value, int index) {
-    CertificateEntry& entry = entries_[check];
-    if (std::isnan(entry.value)) return;
-    if (std::isnan(value) || value > entry.value) entry = {value, index};
-  }
-
-  SpatialCertificate certificate() const {
-    SpatialCertificate result;
-    result.entries = entries_;
-    result.worst = 0.0;
-    for (const CertificateEntry& entry : entries_) {
-      result.worst = worse(entry.value, result.worst);
-    }
-    return result;
-  }
-
- private:
-  std::array<CertificateEntry, SpatialCertificate::kCheckCount> entries_;
-};
 
 struct Question {
   const SpatialProblem& problem;
@@ -60,7 +33,8 @@ double mislabelled(ContactMode mode, double normal, double slip) {
 
 /// Unilateral contact and Coulomb friction at one point with force f and rates c.
 void check_point(const Question& q, const ContactPatch& patch, int index,
-                 const SpatialForce& f, const SeenRates& c, Findings& findings) {
+                 const SpatialForce& f, const SeenRates& c,
+                 Findings<SpatialCertificate>& findings) {
   const SpatialCertificateUnits& units = q.units;
   const double normal = f.normal / units.force;
   double gap = c.normal / units.rate;
@@ -99,7 +73,7 @@ void check_point(const Question& q, const ContactPatch& patch, int index,
 /// All laws of contact for these rates and forces, with the pusher or without.
 void check_contacts(const Question& q, const SpatialRates& rates,
                     const SpatialForceList& forces, bool with_pusher,
-                    Findings& findings) {
+                    Findings<SpatialCertificate>& findings) {
   for (int k = 0; k < q.problem.patch_count; ++k) {
     const ContactPatch& patch = q.problem.patch[k];
     if (!with_pusher && patch.body == ContactBody::kPusher) continue;
@@ -110,7 +84,8 @@ void check_contacts(const Question& q, const SpatialRates& rates,
 }
 
 void check_balance(const Question& q, const SpatialRates& rates,
-                   const SpatialForceList& forces, bool with_pusher, Findings& findings) {
+                   const SpatialForceList& forces, bool with_pusher,
+                   Findings<SpatialCertificate>& findings) {
   const SpatialRates off =
       imbalance(q.problem, rates, forces.data(), with_pusher, q.units);
   for (int row = 0; row < 6; ++row) {
@@ -123,7 +98,8 @@ void check_balance(const Question& q, const SpatialRates& rates,
 
 /// What the answer says about the push, and the rates and modes of its points.
 void check_report(const Question& q, const SpatialInstant& answer,
-                  const SpatialForceList& forces, Findings& findings) {
+                  const SpatialForceList& forces,
+                  Findings<SpatialCertificate>& findings) {
   const SpatialCertificateUnits& units = q.units;
   const SpatialRates rates = rates_of(answer);
   SpatialWrench push = SpatialWrench::Zero();
@@ -166,7 +142,8 @@ bool presses(const Question& q, const SpatialInstant& answer) {
 }
 
 /// That the pads hold gravity by themselves: the answer shows them doing it.
-void check_hold(const Question& q, const SpatialInstant& answer, Findings& findings) {
+void check_hold(const Question& q, const SpatialInstant& answer,
+                Findings<SpatialCertificate>& findings) {
   const bool has_inertia = !q.problem.inertia.isZero(0.0) || q.problem.jaw_mass > 0.0;
   if (has_inertia || !presses(q, answer)) return;
   if (!answer.evidence.allFinite()) {
@@ -209,7 +186,7 @@ std::string_view name(SpatialCertificate::Check check) {
 
 SpatialCertificate certify(const SpatialProblem& problem,
                            const SpatialInstant& answer) noexcept {
-  Findings findings;
+  Findings<SpatialCertificate> findings;
   const Question q{problem, spatial_certificate_units(problem)};
   const bool falls = answer.status == InstantStatus::kDynamic;
   const bool needs_points =

@@ -121,11 +121,10 @@ std::vector<std::pair<std::string, Options>> geometric() {
        {count("samples_per_batch", 10'000.0, 100.0, "states drawn at a time"),
         rewire_factor(1.0), yes_or_no("use_k_nearest", true, "or all within a radius")}},
       {"FMT",
-       {count("num_samples", 100'000.0, 1000.0, "states drawn at once"),
-        // With a third of this OMPL 1.5.2 runs into a node without neighbours and
-        // crashes.
-        {"radius_multiplier", 0.8, 10.0, 1.1, "on the size of neighbourhoods"},
-        yes_or_no("heuristics", false, "order by the cost to go as well"),
+       {count("num_samples", 100'000.0, 131.0, "states drawn at once"),
+        // With 0.4 OMPL 1.5.2 runs into a node without neighbours and crashes.
+        {"radius_multiplier", 0.8, 10.0, 3.8, "on the size of neighbourhoods"},
+        yes_or_no("heuristics", true, "order by the cost to go as well"),
         yes_or_no("extended_fmt", true, "draw more where these do not suffice")}},
       {"EST", {range(0.33), goal_bias(0.65)}},
       {"KPIECE1",
@@ -152,7 +151,7 @@ std::vector<std::pair<std::string, Options>> blind() {
           {"KPIECE1", control_kpiece(0.05, 0.8, 0.9, 0.45, 30.0)},
           {"PDST", {goal_bias(0.9), tries(3.0)}},
           {"SyclopRRT", syclop({30.0, 1124.0, 276.0, 1.0, 0.28, 0.41, 0.61})},
-          {"SyclopEST", syclop({4.0, 1000.0, 100.0, 1.0, 0.25, 0.95, 0.95})}};
+          {"SyclopEST", syclop({8.0, 109.0, 71.0, 2.0, 0.16, 0.22, 0.17})}};
 }
 
 bool improves(const std::string& algorithm) {

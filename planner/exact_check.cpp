@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "planner/confines_check.h"
+#include "planner/meet_end.h"
 #include "planner/point_margin.h"
 #include "planner/ring_pads.h"
 #include "planner/roll_step.h"
@@ -16,17 +17,12 @@ namespace {
 
 constexpr double kPoseAgreement = 1e-6;  // [m] and [rad]
 
-bool is_free_to_turn(const Model& model, const Push& push) {
-  return !std::holds_alternative<Roll>(push) &&
-         model.contacts[static_cast<std::size_t>(contact_of(push))].is_point;
-}
-
 /// What sticks rides with its pusher exactly; an object that turns about a point is
 /// followed as well as the transition function does that, which weighs angles with c.
 double pose_error(const Model& model, const PlannedPush& push, const Grasp& end) {
   const Grasp& planned = push.end;
   const double angle = std::abs(end.X_HO.theta - planned.X_HO.theta);
-  const double scale = is_free_to_turn(model, push.push) ? model.c : 1.0;
+  const double scale = is_by_point(model, push.push) ? model.c : 1.0;
   return std::max({std::hypot(end.X_HO.x - planned.X_HO.x, end.X_HO.y - planned.X_HO.y),
                    scale * angle, std::abs(end.psi - planned.psi)});
 }

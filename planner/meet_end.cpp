@@ -172,14 +172,16 @@ void append_corrected(const Model& model, const TransitionOptions& options,
 
 }  // namespace
 
+bool is_by_point(const Model& model, const Push& push) {
+  return !std::holds_alternative<Roll>(push) &&
+         model.contacts[static_cast<std::size_t>(contact_of(push))].is_point;
+}
+
 void meet_ends(const Model& model, const TransitionOptions& options, Plan& plan) {
   std::vector<PlannedPush> pushes;
   for (const PlannedPush& planned : plan.pushes) {
     const auto* const push = std::get_if<LinearPush>(&planned.push);
-    const bool turns_freely =
-        push && push->travel > 0.0 &&
-        model.contacts[static_cast<std::size_t>(push->contact)].is_point;
-    if (turns_freely) {
+    if (push && push->travel > 0.0 && is_by_point(model, planned.push)) {
       append_corrected(model, options, planned, pushes, plan.instants);
     } else {
       pushes.push_back(planned);

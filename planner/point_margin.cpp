@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "planner/meet_end.h"
 #include "planner/plan_trial.h"
 
 namespace prehensile {
@@ -27,18 +28,13 @@ UncertaintyBox box_of(const Margin& margin) {
   return box;
 }
 
-bool is_by_point(const Model& model, const PlannedPush& push) {
-  return !std::holds_alternative<Roll>(push.push) &&
-         model.contacts[static_cast<std::size_t>(contact_of(push.push))].is_point;
-}
-
 }  // namespace
 
 std::string point_margin_fault(const Model& model, const Plan& plan,
                                const TransitionOptions& options) {
   const bool turns_freely =
       std::any_of(plan.pushes.begin(), plan.pushes.end(),
-                  [&](const PlannedPush& push) { return is_by_point(model, push); });
+                  [&](const PlannedPush& push) { return is_by_point(model, push.push); });
   const UncertaintyBox box = box_of(plan.margin);
   if (!turns_freely || box.active().empty()) return {};
   for (std::uint64_t i = 0; i < kTrials; ++i) {

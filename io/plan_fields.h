@@ -48,7 +48,8 @@ inline constexpr std::array<Word<bool>, 2> kGravityWords = {
 inline const auto kProofWords = named(std::array{
     Proof::Kind::kGoalOffObject, Proof::Kind::kStartFalls, Proof::Kind::kGoalFalls,
     Proof::Kind::kNoPusher, Proof::Kind::kNoRoll, Proof::Kind::kHalfSpace,
-    Proof::Kind::kGoalBeyondLimits, Proof::Kind::kBarrier});
+    Proof::Kind::kGoalBeyondLimits, Proof::Kind::kBarrier, Proof::Kind::kStartBlocked,
+    Proof::Kind::kGoalBlocked});
 
 /// A push as the file has it: pusher and face by name.
 struct WrittenPush {

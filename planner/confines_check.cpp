@@ -80,6 +80,14 @@ PlanarPose object_in_world(const Model& model, const PlannedPush& planned) {
   return object_at_pusher(model, contact_of(model, planned), place);
 }
 
+/// Where a pusher stands along its face puts the hand elsewhere in the world.
+std::string place_fault(const Model& model, const PlannedPush& planned) {
+  if (rolls(planned)) return {};
+  const double most = farthest_place(contact_of(model, planned));
+  if (std::abs(as_linear(planned.push).place) <= most + kLimitTolerance) return {};
+  return "the pusher would stand beside its place, neither on its face whole nor over it";
+}
+
 std::string limits_fault(const Model& model, const PlannedPush& planned) {
   const GraspLimits& limits = *model.scene.limits;
   const PushContact& contact = contact_of(model, planned);
@@ -200,8 +208,8 @@ std::string confinement_fault(const Model& model,
   std::optional<CollisionCheck> collisions;
   if (model.scene.obstacles) collisions.emplace(model);
   for (std::size_t i = 0; i < pushes.size(); ++i) {
-    std::string fault;
-    if (model.scene.limits) fault = limits_fault(model, pushes[i]);
+    std::string fault = place_fault(model, pushes[i]);
+    if (fault.empty() && model.scene.limits) fault = limits_fault(model, pushes[i]);
     if (fault.empty() && collisions) fault = collisions->fault(pushes[i]);
     if (!fault.empty()) return "push " + std::to_string(i + 1) + ": " + fault;
   }

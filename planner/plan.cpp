@@ -70,6 +70,10 @@ std::string_view name(Proof::Kind kind) {
       return "goal beyond limits";
     case Proof::Kind::kBarrier:
       return "barrier";
+    case Proof::Kind::kStartBlocked:
+      return "start blocked";
+    case Proof::Kind::kGoalBlocked:
+      return "goal blocked";
   }
   return "unknown";
 }

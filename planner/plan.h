@@ -55,6 +55,8 @@ struct Proof {
                      ///< the goal; direction = its normal
     kGoalBeyondLimits,  ///< the limits of the scene exclude every pose of the goal set
     kBarrier,  ///< no push moves p_OF out of a region that excludes the goal; region = it
+    kStartBlocked,  ///< every push that begins at the start meets obstacles there
+    kGoalBlocked,   ///< every push that ends at the goal meets obstacles there
   };
   Kind kind = Kind::kNone;
   PlanarTwist twist = PlanarTwist::Zero();

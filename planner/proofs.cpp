@@ -4,6 +4,7 @@
 
 #include "mechanics/pad_law.h"
 #include "planner/barrier.h"
+#include "planner/blocked_hand.h"
 #include "planner/goal_cover.h"
 #include "planner/planner.h"
 #include "planner/refuse.h"
@@ -244,6 +245,12 @@ bool verify(const Model& model, const Proof& proof, std::string* why) {
       return verify_half_space(model, proof, why);
     case Proof::Kind::kBarrier:
       return verify_barrier(model, proof.region, why);
+    case Proof::Kind::kStartBlocked:
+      return is_blocked_at_start(model) ||
+             refuse(why, "a push may begin at the start without a collision");
+    case Proof::Kind::kGoalBlocked:
+      return is_blocked_at_goal(model) ||
+             refuse(why, "a push may end at a pose of the goal without a collision");
     case Proof::Kind::kNone:
       break;
   }

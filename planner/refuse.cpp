@@ -30,6 +30,12 @@ std::string sentence(Proof::Kind kind) {
     case Proof::Kind::kBarrier:
       return "no sticking push moves the finger axis out of a region of the object that "
              "contains the start and not the goal";
+    case Proof::Kind::kStartBlocked:
+      return "at the start obstacles are in the way of every push: of the hand or the "
+             "object while it pushes there or approaches";
+    case Proof::Kind::kGoalBlocked:
+      return "at the goal obstacles are in the way of every push: of the hand or the "
+             "object while it pushes there or retreats";
     case Proof::Kind::kNone:
       break;
   }
@@ -96,6 +102,9 @@ Proof find_proof(const Model& model) {
     Proof half_space = make_proof(Kind::kHalfSpace);
     half_space.direction = direction;
     if (accept(model, half_space, proof)) return proof;
+  }
+  for (const Kind kind : {Kind::kStartBlocked, Kind::kGoalBlocked}) {
+    if (accept(model, make_proof(kind), proof)) return proof;
   }
   return proof;
 }

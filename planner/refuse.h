@@ -8,7 +8,8 @@ namespace prehensile {
 /// How far the friction of an isotropic pad's quadrature may point from its motion [rad].
 inline constexpr double kIsotropyError = 0.01;
 
-/// A proof that `verify` accepts, or kind kNone: those that cost microseconds.
+/// A proof that `verify` accepts, or kind kNone: those that cost microseconds, and among
+/// obstacles milliseconds.
 Proof find_proof(const Model& model);
 
 /// The same by a barrier (barrier.h), which takes some tens of milliseconds.

@@ -5,45 +5,13 @@
 #include "planner/collision_bodies.h"
 #include "planner/obstacle_bodies.h"
 #include "tests/planner/planner_cases.h"
-#include "tests/support/random.h"
+#include "tests/planner/random_bodies.h"
 
 namespace prehensile {
 namespace {
 
+using testing::any_body;
 using testing::Random;
-
-BodyShape random_shape(Random& random) {
-  switch (random.below(5)) {
-    case 0:
-      return BoxShape{{random.in(0.01, 0.1), random.in(0.01, 0.1), random.in(0.01, 0.1)}};
-    case 1:
-      return SphereShape{random.in(0.005, 0.05)};
-    case 2:
-      return CylinderShape{random.in(0.005, 0.05), random.in(0.01, 0.1),
-                           static_cast<Axis>(random.below(3))};
-    case 3:
-      return CapsuleShape{random.in(0.005, 0.05), random.in(0.01, 0.1),
-                          static_cast<Axis>(random.below(3))};
-    default: {
-      PrismShape prism{{}, random.in(0.01, 0.1), static_cast<Axis>(random.below(3))};
-      for (int i = 0; i < 5; ++i) {
-        prism.outline.push_back(rotated(1.2566 * i, {random.in(0.04, 0.05), 0.0}));
-      }
-      return prism;
-    }
-  }
-}
-
-ConvexBody random_body(Random& random) {
-  ConvexBody body{.name = "body", .shape = random_shape(random)};
-  for (int i = 0; i < 3; ++i) body.position[i] = random.in(-0.1, 0.1);
-  const double half = random.in(-3.0, 3.0);
-  const double tilt = random.in(-3.0, 3.0);
-  body.quaternion = {std::sin(half) * std::cos(tilt), std::sin(half) * std::sin(tilt),
-                     0.0, std::cos(half)};
-  body.turn = random.in(-3.0, 3.0);
-  return body;
-}
 
 double separation_of(const ConvexBody& a, const ConvexBody& b) {
   return separation({&a, pose_of(a)}, {&b, pose_of(b)});
@@ -84,8 +52,8 @@ TEST(Separation, ClosedForms) {
 TEST(Separation, IsALowerBoundOfTheDistanceOfPoints) {
   Random random(5);
   for (int i = 0; i < 200; ++i) {
-    const ConvexBody a = random_body(random);
-    const ConvexBody b = random_body(random);
+    const ConvexBody a = any_body(random);
+    const ConvexBody b = any_body(random);
     const double gap = separation_of(a, b);
     for (int k = 0; k < 100; ++k) {
       const Vec3 d(random.in(-1.0, 1.0), random.in(-1.0, 1.0), random.in(-1.0, 1.0));
@@ -103,8 +71,8 @@ TEST(Separation, AgreesWithTheLibrary) {
   int apart = 0;
   for (int i = 0; i < 500; ++i) {
     Scene scene = testing::walled_square();
-    const ConvexBody hand = random_body(random);
-    const ConvexBody fixture = random_body(random);
+    const ConvexBody hand = any_body(random);
+    const ConvexBody fixture = any_body(random);
     scene.obstacles = Obstacles{.fixture = {fixture}, .hand = {hand}};
     const Model model = prepare(scene);
     const PlanarPose X_WH{random.in(-0.2, 0.2), random.in(-0.2, 0.2),

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "planner/confines.h"
+#include "planner/placement.h"
 #include "planner/ring_kappas.h"
 #include "planner/segment.h"
 
@@ -18,6 +19,8 @@ constexpr int kMostChecks = 24;
 
 constexpr int kFewestPlaces = 3;  // of a line pusher shorter than its face
 constexpr int kMostPlaces = 9;
+
+constexpr int kPlacesAlong = 3;  // of one that covers its face, to either side
 
 void add_line(const Model& model, int index, double place,
               std::vector<SearchContact>& contacts) {
@@ -33,6 +36,22 @@ void add_short_line(const Model& model, int index, double room,
                                kFewestPlaces, kMostPlaces);
   for (int i = 0; i < count; ++i) {
     add_line(model, index, room * (2.0 * i / (count - 1) - 1.0), contacts);
+  }
+}
+
+/// A pusher pushes alike wherever it stands as long as it covers its face; but it matters
+/// where that puts the hand and the object among what confines them.
+void add_places_along(const Model& model, int index, double margin,
+                      std::vector<SearchContact>& contacts) {
+  const Scene& scene = model.scene;
+  const bool limits_hand =
+      scene.limits && (scene.limits->hand_low || scene.limits->hand_high);
+  if (!scene.obstacles && !limits_hand) return;
+  const double room = farthest_place(model.contacts[index]) - margin;
+  if (!(room > 0.0)) return;
+  for (int i = 1; i <= kPlacesAlong; ++i) {
+    add_line(model, index, i * room / kPlacesAlong, contacts);
+    add_line(model, index, -i * room / kPlacesAlong, contacts);
   }
 }
 
@@ -61,6 +80,7 @@ void add_contacts(const Model& model, const Margin& margin,
       if (room > 0.0) contacts.push_back(point(model, index, room));
     } else if (contact.half_length >= half_face) {
       add_line(model, index, 0.0, contacts);
+      add_places_along(model, index, margin.place, contacts);
     } else {
       add_short_line(model, index, half_face - contact.half_length, contacts);
     }

@@ -69,6 +69,7 @@ Scene with_obstacles(Scene scene, int posts, std::uint64_t seed, std::uint64_t i
   for (Pusher& wall : scene.pushers) {
     const Vec2 n = direction(wall.normal_angle);
     wall.p_WP = -kWallDistance * n;
+    wall.feature = LineFeature{.length = kPlateSize};
     const Vec2 middle = wall.p_WP - 0.5 * kPlateThickness * n;
     obstacles.fixture.push_back(
         {.name = wall.name,

@@ -26,9 +26,10 @@ bool is_one_move(const SearchModel& search, const Move& first, const Move& secon
 std::optional<std::vector<Move>> moves_by(const BaselineQuestion& question,
                                           const Limits& limits, Work& work) {
   if (question.search.contacts.empty()) return std::nullopt;
-  return question.kind.algorithm == "random-shooting"
-             ? shoot_at_random(question, limits, work)
-             : grow_cone_tree(question, limits, work);
+  const std::string& algorithm = question.kind.algorithm;
+  if (algorithm == "random-shooting") return shoot_at_random(question, limits, work);
+  if (algorithm == "two-trees") return grow_two_trees(question, limits, work);
+  return grow_cone_tree(question, limits, work);
 }
 
 }  // namespace

@@ -41,6 +41,13 @@ std::optional<std::vector<Move>> grow_cone_tree(const BaselineQuestion& question
 std::optional<std::vector<Move>> shoot_at_random(const BaselineQuestion& question,
                                                  const Limits& limits, Work& work);
 
+/// Two trees, one from the start along pushes and one from the goals against them: random
+/// pushes towards random poses, and every new pose joined with those of the other tree by
+/// one push (after RRT-Connect: Kuffner, LaValle 2000; no push is ever reversed). Ends
+/// with the first plan.
+std::optional<std::vector<Move>> grow_two_trees(const BaselineQuestion& question,
+                                                const Limits& limits, Work& work);
+
 /// Runs the baseline that the options name and adds a roll where the goal wants one.
 /// Status as of search_pushes. Pushes are not checked with the exact mechanics yet.
 Plan search_by_baseline(const SearchModel& search, const Grasp& start, const Goal& goal,

@@ -77,8 +77,10 @@ std::vector<PlannerKind> own() {
   return {{"push",
            PlannerFamily::kOwn,
            "push",
-           {{"fallback_share", 0.0, 0.9, 0.01,
-             "of the budget, for a baseline where the exact stages find nothing"}}},
+           {{"fallback_share", 0.0, 0.9, 0.1,
+             "of the budget, for a baseline where the exact stages find nothing"},
+            {"fallback_share_obstacles", 0.0, 0.9, 0.9,
+             "the same among obstacles, where looks for collisions cost most of it"}}},
           {"motion-cone-tree",
            PlannerFamily::kBaseline,
            "motion-cone-tree",
@@ -94,7 +96,13 @@ std::vector<PlannerKind> own() {
            "random-shooting",
            {count("depth", 50.0, 23.0, "most pushes of a trial"),
             {"longest", 0.01, 5.0, 1.3, "push of a trial", false, true},
-            count("redraws", 100.0, 5.0, "of a control that cannot stick")}}};
+            count("redraws", 100.0, 5.0, "of a control that cannot stick")}},
+          {"two-trees",
+           PlannerFamily::kBaseline,
+           "two-trees",
+           {{"longest", 0.01, 5.0, 2.5, "push of a tree", false, true},
+            count("draws", 100.0, 8.0, "of a push, of which the closest is tried"),
+            count("links", 100'000.0, 300.0, "nodes that a new one is joined with")}}};
 }
 
 std::vector<std::pair<std::string, Options>> geometric() {

@@ -10,8 +10,8 @@
 namespace prehensile {
 
 /// The planner that carries on: of all baselines, OMPL's included, the one that solves
-/// most of the wide problems, and in the least time (docs/benchmarks.md).
-inline constexpr const char* kFallbackPlanner = "random-shooting";
+/// most of what the exact stages leave open (docs/planners.md).
+inline constexpr const char* kFallbackPlanner = "two-trees";
 
 /// Moves in the pad plane found by the fallback with `budget` units of work, then joined
 /// and shortened by the means of the exact stages. `goal` fixes no roll angle. The same

@@ -150,8 +150,9 @@ void say_undecided(const Limits& limits, Plan& plan) {
 bool plan_in_shares(const SearchModel& search, const Grasp& start, const Goal& goal,
                     const PlanOptions& options, Work& work, Plan& plan) {
   const Limits limits(options, work);
-  const double share =
-      setting(*find_planner(kOwnPlanner), options.settings, "fallback_share");
+  const double share = setting(
+      *find_planner(kOwnPlanner), options.settings,
+      search.model->scene.obstacles ? "fallback_share_obstacles" : "fallback_share");
   const std::int64_t whole = work.budget;
   const std::int64_t left = whole - work.done();
   const auto of_fallback = static_cast<std::int64_t>(share * static_cast<double>(left));

@@ -296,6 +296,22 @@ std::optional<PushStep> PushSteps::follow(const PushState& from,
   return step;
 }
 
+std::optional<PushState> PushSteps::end_of(const PushState& from,
+                                           const PushControl& control) const {
+  const Vec2 e(std::cos(control.heading), std::sin(control.heading));
+  const Slopes slopes = slopes_of(search_, control.letter, from.flat.p_OF, e);
+  if (slopes.empty()) return {};
+  const double slope = slopes.at(control.share);
+  PushState end = from;
+  end.flat.p_OF -= control.travel * std::cos(slope) * e;
+  end.flat.theta += control.travel * std::sin(slope) / theta_scale_;
+  return representable(end);
+}
+
+bool PushSteps::works(int contact, const PushState& from, const PushState& to) {
+  return counted() && move_works(contact, from.flat, to.flat);
+}
+
 PushControl PushSteps::control_for(const PushState& from, const PushStep& step) const {
   PushControl control{.roll = step.to.psi - from.psi};
   if (step.move_contact < 0) return control;

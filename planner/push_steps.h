@@ -2,9 +2,9 @@
 /// and others, answered in one place so that propagator, directed sampler and motion
 /// validator cannot disagree. Names no OMPL type.
 ///
-/// `join`, `approach`, `extend` and `follow` count as one propagation for each contact or
-/// move that they try, and refuse everything once the budget is spent: some planners ask
-/// on without looking at their termination condition.
+/// `join`, `approach`, `extend`, `follow` and `works` count as one propagation for each
+/// contact or move that they try, and refuse everything once the budget is spent: some
+/// planners ask on without looking at their termination condition.
 #pragma once
 
 #include <cmath>
@@ -114,6 +114,15 @@ class PushSteps {
 
   /// The step of a control; nothing where the control is refused.
   std::optional<PushStep> follow(const PushState& from, const PushControl& control);
+
+  /// Where the move of a steered control leads from here, as far as the slopes that stick
+  /// here say; with a negative travel, whence it leads here. Nothing where no slope
+  /// sticks. Whether the move works is left to `works`; counts nothing.
+  std::optional<PushState> end_of(const PushState& from,
+                                  const PushControl& control) const;
+
+  /// Whether this contact does the straight move.
+  bool works(int contact, const PushState& from, const PushState& to);
 
   /// The control whose step this is.
   PushControl control_for(const PushState& from, const PushStep& step) const;

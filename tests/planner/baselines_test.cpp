@@ -16,6 +16,7 @@ using testing::kNoBudget;
 
 const std::string kTree = "motion-cone-tree";
 const std::string kShooting = "random-shooting";
+const std::string kTwoTrees = "two-trees";
 
 Plan searched(const Model& model, const PlanOptions& options,
               const Margin& margin = Margin::none(), Work* counted = nullptr) {
@@ -36,7 +37,7 @@ Scene wide(int i) {
 TEST(Baselines, EveryPushIsDoneInItsDirection) {
   testing::Directions directions;
   int solved = 0;
-  for (const std::string& planner : {kTree, kShooting}) {
+  for (const std::string& planner : {kTree, kShooting, kTwoTrees}) {
     for (int i = 0; i < 24; ++i) {
       const Model model = prepare(i < 12 ? wide(i) : published_tee(i));
       const Plan plan = searched(model, {.planner = planner, .budget = 5000});
@@ -51,7 +52,7 @@ TEST(Baselines, EveryPushIsDoneInItsDirection) {
 }
 
 TEST(Baselines, PlansOfTheWholeProgramReplay) {
-  for (const std::string& planner : {kTree, kShooting}) {
+  for (const std::string& planner : {kTree, kShooting, kTwoTrees}) {
     for (int i = 0; i < 6; ++i) {
       const Model model = prepare(published_tee(i));
       const Plan plan = plan_regrasp(model, {.planner = planner, .budget = 200'000});
@@ -74,7 +75,7 @@ bool same_pushes(const Plan& a, const Plan& b) {
 
 TEST(Baselines, TheSeedDecides) {
   const Model model = prepare(wide(1));
-  for (const std::string& planner : {kTree, kShooting}) {
+  for (const std::string& planner : {kTree, kShooting, kTwoTrees}) {
     int different = 0;
     const Plan first = searched(model, {.planner = planner, .seed = 1, .budget = 5000});
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
@@ -98,7 +99,7 @@ Scene hopeless() {
 
 TEST(Baselines, TheBudgetIsKeptToThePropagation) {
   const Model model = prepare(hopeless());
-  for (const std::string& planner : {kTree, kShooting}) {
+  for (const std::string& planner : {kTree, kShooting, kTwoTrees}) {
     for (const std::int64_t budget : {0, 1, 10, 137, 2000}) {
       Work work;
       const Plan plan =
@@ -113,7 +114,7 @@ TEST(Baselines, TheBudgetIsKeptToThePropagation) {
 TEST(Baselines, TheStopFlagEndsThem) {
   const Model model = prepare(hopeless());
   const std::atomic<bool> stop = true;
-  for (const std::string& planner : {kTree, kShooting}) {
+  for (const std::string& planner : {kTree, kShooting, kTwoTrees}) {
     const Plan plan =
         searched(model, {.planner = planner, .budget = kNoBudget, .stop = &stop});
     EXPECT_EQ(plan.status, PlanStatus::kStopped) << planner;
@@ -121,7 +122,7 @@ TEST(Baselines, TheStopFlagEndsThem) {
 }
 
 TEST(Baselines, RollsAreAdded) {
-  for (const std::string& planner : {kTree, kShooting}) {
+  for (const std::string& planner : {kTree, kShooting, kTwoTrees}) {
     for (std::uint64_t i = 0; i < 40; ++i) {
       const RandomRegrasp regrasp = random_regrasp(RegraspFamily::kCylinder, 1, i);
       if (!regrasp.scene.goal->psi) continue;

@@ -50,7 +50,8 @@ TEST(Catalogue, DefaultsAreAllowedValues) {
 TEST(Catalogue, UnknownNamesAreRefusedWithTheList) {
   const std::string planner = planner_fault("geometric::Magic", {});
   const std::string option = planner_fault("motion-cone-tree", {{"magic", 1.0}});
-  EXPECT_NE(planner.find("motion-cone-tree, random-shooting"), std::string::npos);
+  EXPECT_NE(planner.find("motion-cone-tree, random-shooting, two-trees"),
+            std::string::npos);
   EXPECT_NE(option.find("step, goal_bias"), std::string::npos) << option;
 }
 

@@ -229,8 +229,8 @@ TEST(Confines, TheAngleOfTheHandIsLimited) {
 }
 
 TEST(Confines, AllPlannersKeepToLimits) {
-  for (const std::string planner :
-       {"random-shooting", "motion-cone-tree", "RRTConnect", "control::RRT"}) {
+  for (const std::string planner : {"random-shooting", "motion-cone-tree", "two-trees",
+                                    "RRTConnect", "control::RRT"}) {
     if (!planner_fault(planner, {}).empty()) continue;
     int solved = 0;
     for (int i = 0; i < 6; ++i) {

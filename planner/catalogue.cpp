@@ -100,9 +100,9 @@ std::vector<PlannerKind> own() {
           {"two-trees",
            PlannerFamily::kBaseline,
            "two-trees",
-           {{"longest", 0.01, 5.0, 2.5, "push of a tree", false, true},
-            count("draws", 100.0, 8.0, "of a push, of which the closest is tried"),
-            count("links", 100'000.0, 300.0, "nodes that a new one is joined with")}}};
+           {{"longest", 0.01, 5.0, 0.79, "push of a tree", false, true},
+            count("draws", 100.0, 9.0, "of a push, of which the closest is tried"),
+            count("links", 100'000.0, 374.0, "nodes that a new one is joined with")}}};
 }
 
 std::vector<std::pair<std::string, Options>> geometric() {

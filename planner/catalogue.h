@@ -1,10 +1,10 @@
 /// Which planners there are, what can be set of each, and which of OMPL's are refused.
 /// The same in every build: what is not built in is known and said to be absent.
 ///
-/// Names: `push` is our own; `motion-cone-tree` and `random-shooting` are ours as well,
-/// after others; `geometric::X` are OMPL's planners over places with exact steering for
-/// their local planner, `control::X` its control planners with samplers that steer, and
-/// `blind::X` the same with uniform random controls.
+/// Names: `push` is our own; `motion-cone-tree`, `random-shooting` and `two-trees` are
+/// ours, after others; `geometric::X` are OMPL's planners over places with exact steering
+/// for their local planner, `control::X` its control planners with samplers that steer,
+/// and `blind::X` the same with uniform random controls.
 #pragma once
 
 #include <string>

@@ -13,9 +13,10 @@ namespace prehensile {
 /// most of what the exact stages leave open (docs/planners.md).
 inline constexpr const char* kFallbackPlanner = "two-trees";
 
-/// Moves in the pad plane found by the fallback with `budget` units of work, then joined
-/// and shortened by the means of the exact stages. `goal` fixes no roll angle. The same
-/// for the same seed and budget.
+/// Moves in the pad plane found by the fallback with `budget` units of work: the cheapest
+/// of the plans that it finds in a few times the work of the first, joined and shortened
+/// by the means of the exact stages. `goal` fixes no roll angle. The same for the same
+/// seed and budget.
 std::optional<std::vector<Move>> fall_back(const SearchModel& search, const Grasp& start,
                                            const Goal& goal, const PlanOptions& options,
                                            std::int64_t budget, Work& work);

@@ -15,6 +15,7 @@
 #include "planner/holding.h"
 #include "planner/roll_step.h"
 #include "planner/shorten.h"
+#include "planner/walk_search.h"
 
 namespace prehensile {
 namespace {
@@ -85,6 +86,7 @@ bool plan_with_real_pads(const SearchModel& search, const FlatState& from,
     append_chain(search, from, best->chain, plan);
     return true;
   }
+  if (!moves) moves = search_walks(search, from, goals, limits, work);
   if (!moves) return false;
   for (const Move& move : *moves) append_move(search, move, plan);
   return true;

@@ -1,0 +1,67 @@
+/// Which rotations of a push stick at one place of the finger axis, with the pads as the
+/// face leaves them there. Internal to the planner.
+///
+/// Pads that the face clips press beside the finger axis: their friction is not that of
+/// the closed form (sticking_kappas), which knows whole pads only. Where the pads are
+/// discs, they are the same at every angle of the object, and a place decides.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "planner/steering.h"
+
+namespace prehensile {
+
+/// Up to two intervals of kappa = c dtheta / |dp|.
+struct KappaRanges {
+  int count = 0;
+  std::array<KappaSet::Interval, 2> intervals;
+};
+
+/// The kappas that both admit.
+KappaRanges common(const KappaRanges& one, const KappaRanges& other) noexcept;
+
+/// The pads at a place of the finger axis, at some angles of the object: the points that
+/// stand for discs are not quite the same at each.
+class PadsAtPlace {
+ public:
+  PadsAtPlace(const Model& model, const Vec2& p_OF);
+
+  /// Alike at all such places.
+  bool are_whole() const { return are_whole_; }
+
+  /// They do not touch the object.
+  bool are_lost() const { return grasps_.empty(); }
+
+  const std::vector<PlanarGrasp>& grasps() const { return grasps_; }
+
+ private:
+  std::vector<PlanarGrasp> grasps_;  // points about the finger axis, in O; weightless
+  bool are_whole_;
+};
+
+/// Friction of such pads over F, and over F c, for motions in one direction.
+class DirectedDrag {
+ public:
+  /// `e`: motion of the object in the hand (unit, in O).
+  DirectedDrag(const Model& model, const PadsAtPlace& pads, const Vec2& e);
+
+  /// The kappas for which a contact sticks at all of the angles while the finger axis is
+  /// at p_OF. No heap.
+  KappaRanges kappas(const StickContact& contact, const Vec2& p_OF) const noexcept;
+
+ private:
+  struct Sample {
+    Vec2 force;
+    double moment = 0.0;
+  };
+  double slope_angle(int i) const;
+
+  Vec2 e_;
+  int slopes_;
+  std::size_t angles_;
+  std::vector<Sample> samples_;  // by slope and angle
+};
+
+}  // namespace prehensile

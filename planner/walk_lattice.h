@@ -1,0 +1,75 @@
+/// A fine lattice of places of the finger axis, and what short pushes between them may
+/// turn. Internal to the planner.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "planner/goal.h"
+#include "planner/level_set.h"
+#include "planner/place_law.h"
+
+namespace prehensile {
+
+/// A short straight push between two nodes.
+struct WalkEdge {
+  int to = -1, contact = -1;
+  double lo = 0.0, hi = 0.0;  ///< c dtheta that it can produce [m]; lo > hi: not any more
+  double cost = 0.0;          ///< least path length in the flat space, over L
+};
+
+class WalkLattice {
+ public:
+  /// `per_side` nodes over the longer side of the object, the start, and the places of
+  /// the goals. `search` must outlive the lattice.
+  WalkLattice(const SearchModel& search, const FlatState& start, const GoalPlaces& goals,
+              int per_side);
+
+  int nodes() const { return static_cast<int>(nodes_.size()); }
+  int start() const { return start_; }
+  const Vec2& place(int node) const { return nodes_[node].p_OF; }
+
+  /// The index of the goal that a node is the place of, or negative.
+  int goal_at(int node) const { return node - start_ - 1; }
+
+  /// The pushes from a node, from when they are first asked for; to be cut by who finds
+  /// that one does not stick.
+  std::vector<WalkEdge>& edges_from(int node, Work& work);
+
+ private:
+  struct Node {
+    Vec2 p_OF;
+    std::vector<char> held = {};           // by contact; empty: not known yet
+    std::vector<KappaRanges> slopes = {};  // by step and contact
+    std::optional<std::vector<WalkEdge>> edges = {};
+  };
+  struct Step {
+    int i, j;
+    double length;  // [m]
+    Vec2 e;         // motion of the object
+  };
+
+  void add_nodes(const FlatState& start, const GoalPlaces& goals);
+  void add_steps();
+  void find_held(Node& node, Work& work) const;
+  void find_slopes(Node& node, Work& work);
+  KappaRanges slopes_along(Node& node, int contact, const DirectedDrag& drag) const;
+  void add_edges(const KappaRanges& slopes, int contact, int to, double length,
+                 std::vector<WalkEdge>& edges) const;
+  void add_steps_from(int index, Work& work, std::vector<WalkEdge>& edges);
+  void add_given(int from, int to, Work& work, std::vector<WalkEdge>& edges);
+
+  const SearchModel& search_;
+  const Model& model_;
+  const int contacts_;
+  std::vector<StickContact> weak_;  // by contact
+  PlaceGrid grid_;
+  std::vector<Step> steps_;
+  std::vector<Node> nodes_;   // of the grid, the start, the goals
+  std::vector<int> on_grid_;  // of nodes
+  std::vector<int> at_grid_;  // the node there, or -1
+  int start_ = 0;
+  std::vector<DirectedDrag> whole_drags_;  // by step
+};
+
+}  // namespace prehensile

@@ -1,0 +1,262 @@
+#include "planner/walk_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <queue>
+
+#include "planner/baselines.h"
+#include "planner/chain.h"
+#include "planner/confines.h"
+#include "planner/shorten.h"
+#include "planner/walk_lattice.h"
+
+namespace prehensile {
+namespace {
+
+/// Of the lattices that are tried, over the longer side of the object.
+constexpr std::array kNodesPerSide = {24, 48};
+
+constexpr int kMostStates = 20'000;  // nodes x contacts of a lattice
+
+constexpr double kMostTurn = 15.0;  // [rad] to either side that buckets tell apart
+constexpr int kBuckets = 400;
+
+constexpr std::size_t kMostLabels = 400'000;
+
+/// As many labels are offered in the time of a stick test, about.
+constexpr int kEdgesPerTest = 8;
+
+/// Walks of which some push turns out not to stick; its edge is cut, and another walk
+/// looked for.
+constexpr int kMostRepairs = 100;
+
+/// By this, and a share of its turns, an edge loses more than what does not stick [m].
+constexpr double kLeastTurn = 1e-6;
+constexpr double kShareOfTurns = 0.1;
+
+constexpr float kFar = std::numeric_limits<float>::infinity();
+
+struct Label {
+  double lo = 0.0, hi = 0.0;  ///< c dtheta produced so far [m]
+  double cost = 0.0;
+  int node = -1, contact = -1;
+  int parent = -1, edge = -1;  ///< the label before, and the edge of its node
+};
+
+struct QueueEntry {
+  double estimate;
+  int label;
+  bool operator<(const QueueEntry& other) const {  // priority_queue pops the greatest
+    return estimate != other.estimate ? estimate > other.estimate : label > other.label;
+  }
+};
+
+/// Where a walk ends: a label at a place of the goal, and the angle of that goal.
+struct WalkEnd {
+  int label = -1;
+  double theta = 0.0;
+};
+
+class WalkSearch {
+ public:
+  WalkSearch(const SearchModel& search, WalkLattice& lattice, const FlatState& start,
+             const GoalPlaces& goals, const Limits& limits, Work& work)
+      : search_(search),
+        lattice_(lattice),
+        start_(start),
+        goals_(goals),
+        limits_(limits),
+        work_(work),
+        c_(search.model->c) {
+    const TurnWindow window = turns_from(search, start.theta);
+    window_ = {c_ * std::max(window.low, -kMostTurn),
+               c_ * std::min(window.high, kMostTurn)};
+    for (int node = 0; node < lattice.nodes(); ++node) rest_.push_back(least_rest(node));
+    bucket_costs_.resize(rest_.size() * kBuckets);
+    bucket_labels_.resize(bucket_costs_.size());
+  }
+
+  std::optional<std::vector<Move>> run() {
+    for (int i = 0; i < kMostRepairs && !limits_.reached(); ++i) {
+      const std::optional<WalkEnd> end = cheapest_walk();
+      if (!end) return std::nullopt;
+      std::vector<Move> moves = moves_to(*end);
+      if (!moves.empty()) return moves;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  double least_rest(int node) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < goals_.count; ++i) {
+      least = std::min(least, (goals_.places[i].p_OF - lattice_.place(node)).norm());
+    }
+    return least / search_.model->L;
+  }
+
+  std::optional<WalkEnd> cheapest_walk() {
+    labels_.clear();
+    queue_ = {};
+    std::ranges::fill(bucket_costs_, kFar);
+    std::ranges::fill(bucket_labels_, -1);
+    offer({.node = lattice_.start()});
+    while (!queue_.empty() && !limits_.reached() && labels_.size() < kMostLabels) {
+      const int next = queue_.top().label;
+      queue_.pop();
+      if (!is_alive(next)) continue;
+      if (const auto theta = goal_met_by(labels_[next])) return WalkEnd{next, *theta};
+      expand(next);
+    }
+    return std::nullopt;
+  }
+
+  std::optional<double> goal_met_by(const Label& label) const {
+    const int index = lattice_.goal_at(label.node);
+    if (index < 0) return std::nullopt;
+    const GoalPlace& goal = goals_.places[static_cast<std::size_t>(index)];
+    for (int i = 0; i < goal.count; ++i) {
+      const double wanted = c_ * (goal.theta[i] - start_.theta);
+      if (wanted >= label.lo && wanted <= label.hi) return goal.theta[i];
+    }
+    return std::nullopt;
+  }
+
+  void expand(int index) {
+    const Label label = labels_[index];  // a copy: labels_ grows
+    const std::vector<WalkEdge>& edges = lattice_.edges_from(label.node, work_);
+    work_.other += 1 + static_cast<std::int64_t>(edges.size()) / kEdgesPerTest;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const WalkEdge& edge = edges[i];
+      const double lo = std::max(label.lo + edge.lo, window_.low);
+      const double hi = std::min(label.hi + edge.hi, window_.high);
+      if (lo > hi || edge.lo > edge.hi) continue;
+      const double placed = edge.contact != label.contact ? 1.0 : 0.0;
+      offer({lo, hi, label.cost + edge.cost + placed, edge.to, edge.contact, index,
+             static_cast<int>(i)});
+    }
+  }
+
+  std::pair<int, int> buckets_of(const Label& label) const {
+    const auto bucket = [&](double c_theta) {
+      const double share = 0.5 * (c_theta / (c_ * kMostTurn) + 1.0);
+      return std::clamp(static_cast<int>(share * kBuckets), 0, kBuckets - 1);
+    };
+    return {bucket(label.lo), bucket(label.hi)};
+  }
+
+  std::size_t first_bucket(const Label& label) const {
+    return static_cast<std::size_t>(label.node) * kBuckets;
+  }
+
+  bool is_alive(int index) const {
+    const Label& label = labels_[index];
+    const auto [low, high] = buckets_of(label);
+    const int* const kept = &bucket_labels_[first_bucket(label)];
+    return std::find(kept + low, kept + high + 1, index) != kept + high + 1;
+  }
+
+  /// Keeps the label if it is the cheapest for some bucket of its angles.
+  void offer(const Label& label) {
+    const auto [low, high] = buckets_of(label);
+    const std::size_t first = first_bucket(label);
+    const auto cost = static_cast<float>(label.cost);
+    const int index = static_cast<int>(labels_.size());
+    bool is_kept = false;
+    for (std::size_t b = first + low; b <= first + high; ++b) {
+      if (bucket_costs_[b] <= cost) continue;
+      bucket_costs_[b] = cost;
+      bucket_labels_[b] = index;
+      is_kept = true;
+    }
+    if (!is_kept) return;
+    queue_.push({label.cost + rest_[label.node], index});
+    labels_.push_back(label);
+  }
+
+  /// From the end backwards, each push as deep in what it may turn as the whole walk is.
+  /// None if some do not stick with the real pads along their way: these are cut.
+  std::vector<Move> moves_to(const WalkEnd& end) {
+    std::vector<Move> moves;
+    bool all_stick = true;
+    double turned = c_ * (end.theta - start_.theta);
+    for (int i = end.label; labels_[i].parent >= 0; i = labels_[i].parent) {
+      const Label& label = labels_[i];
+      const Label& before = labels_[label.parent];
+      WalkEdge& edge = lattice_.edges_from(before.node, work_)[label.edge];
+      const double share =
+          label.hi > label.lo ? (turned - label.lo) / (label.hi - label.lo) : 0.5;
+      const double low = std::max(before.lo, turned - edge.hi);
+      const double high = std::max(low, std::min(before.hi, turned - edge.lo));
+      const double turned_before =
+          std::clamp(std::lerp(before.lo, before.hi, share), low, high);
+      moves.push_back(
+          {edge.contact, state(before.node, turned_before), state(label.node, turned)});
+      if (!move_passes(search_, moves.back(), work_)) {
+        cut(turned - turned_before, edge);
+        all_stick = false;
+      }
+      turned = turned_before;
+    }
+    if (!all_stick) return {};
+    std::ranges::reverse(moves);
+    return moves;
+  }
+
+  FlatState state(int node, double c_turned) const {
+    return {lattice_.place(node), start_.theta + c_turned / c_};
+  }
+
+  /// Leaves the longer part beside a turn that does not stick.
+  static void cut(double turn, WalkEdge& edge) {
+    const double aside = kShareOfTurns * (edge.hi - edge.lo) + kLeastTurn;
+    if (edge.hi - turn > turn - edge.lo) {
+      edge.lo = turn + aside;
+    } else {
+      edge.hi = turn - aside;
+    }
+  }
+
+  const SearchModel& search_;
+  WalkLattice& lattice_;
+  const FlatState start_;
+  const GoalPlaces& goals_;
+  const Limits& limits_;
+  Work& work_;
+  const double c_;                   // [m]
+  TurnWindow window_;                // of c dtheta [m]
+  std::vector<double> rest_;         // of the cost from each node, at least
+  std::vector<float> bucket_costs_;  // by node and bucket of the turn
+  std::vector<int> bucket_labels_;
+  std::vector<Label> labels_;
+  std::priority_queue<QueueEntry> queue_;
+};
+
+bool is_for_walks(const SearchModel& search) {
+  const Model& model = *search.model;
+  return !model.scene.obstacles && model.F > 0.0 && model.c > 0.0 &&
+         std::none_of(
+             model.contacts.begin(), model.contacts.end(),
+             [&](const PushContact& contact) { return model.needs_space(contact); });
+}
+
+}  // namespace
+
+std::optional<std::vector<Move>> search_walks(const SearchModel& search,
+                                              const FlatState& start,
+                                              const GoalPlaces& goals,
+                                              const Limits& limits, Work& work) {
+  if (!is_for_walks(search)) return std::nullopt;
+  for (const int per_side : kNodesPerSide) {
+    WalkLattice lattice(search, start, goals, per_side);
+    const auto contacts = static_cast<int>(search.contacts.size());
+    if (lattice.nodes() * contacts > kMostStates) break;
+    const auto moves = WalkSearch(search, lattice, start, goals, limits, work).run();
+    if (moves) return shortened(search, joined_moves(search, *moves), limits, work);
+  }
+  return std::nullopt;
+}
+
+}  // namespace prehensile

@@ -1,0 +1,26 @@
+/// Long walks of short pushes. Internal to the own planner.
+///
+/// Where the finger axis can be led around a loop and the object turns a little on each,
+/// dozens of pushes may be needed; and where the face clips the pads, the pushes that
+/// help are not those of the closed form. Both are known to this search: it goes from
+/// node to node of a fine lattice of places by what sticks with the pads as they are
+/// there (place_law.h), and carries intervals of the angle as search_labels does.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "planner/goal.h"
+#include "planner/limits.h"
+
+namespace prehensile {
+
+/// Pushes to one of the goals, shortened from the cheapest walk over the lattice; each
+/// sticks with the real pads. None among obstacles, for pads that need the
+/// mechanics in space, or if the lattice holds no walk or a limit is reached.
+std::optional<std::vector<Move>> search_walks(const SearchModel& search,
+                                              const FlatState& start,
+                                              const GoalPlaces& goals,
+                                              const Limits& limits, Work& work);
+
+}  // namespace prehensile

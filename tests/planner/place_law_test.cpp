@@ -1,0 +1,129 @@
+#include "planner/place_law.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "tests/planner/planner_cases.h"
+#include "tests/support/random.h"
+
+namespace prehensile {
+namespace {
+
+using testing::Random;
+
+constexpr double kPi = std::numbers::pi;
+
+bool holds(const KappaRanges& ranges, double kappa) {
+  for (int i = 0; i < ranges.count; ++i) {
+    const auto [lo, hi] = ranges.intervals[static_cast<std::size_t>(i)];
+    if (kappa >= lo && kappa <= hi) return true;
+  }
+  return false;
+}
+
+KappaRanges ranges_at(const SearchModel& search, int contact, const Vec2& p_OF,
+                      const Vec2& e) {
+  const DirectedDrag drag(*search.model, PadsAtPlace(*search.model, p_OF), e);
+  return drag.kappas(search.contacts[static_cast<std::size_t>(contact)].stick, p_OF);
+}
+
+/// Over soft points the closed form knows the intervals.
+TEST(PlaceLaw, OfSoftPointsIsTheClosedForm) {
+  Random random(1);
+  int inside = 0;
+  int outside = 0;
+  for (int i = 0; i < 1500; ++i) {
+    const Model model =
+        prepare(with_soft_points(published_square(random.below(kPublishedRegrasps))));
+    const SearchModel search = prepare_search(model, Margin::none());
+    const int contact = random.below(static_cast<int>(search.contacts.size()));
+    const StickContact& stick = search.contacts[static_cast<std::size_t>(contact)].stick;
+    const Vec2 p_OF = random.in_box(0.04, 0.04);
+    const Vec2 e = rotated(random.in(-1.0, 1.0), stick.n);
+    const KappaRanges ranges = ranges_at(search, contact, p_OF, e);
+    const double kappa = std::tan(random.in(-1.2, 1.2));
+    const double slack = stick_test(stick, model.F, p_OF, e, 1.0, kappa / model.c).slack;
+    if (slack > 0.02) {
+      ++inside;
+      EXPECT_TRUE(holds(ranges, kappa)) << kappa << " slack " << slack;
+    } else if (slack < 0.0) {
+      ++outside;
+      EXPECT_FALSE(holds(ranges, kappa)) << kappa << " slack " << slack;
+    }
+  }
+  EXPECT_GT(inside, 200);
+  EXPECT_GT(outside, 200);
+}
+
+/// What it admits sticks with the real pads at nearly every angle of the object, clipped
+/// as the face leaves them, where the closed form is far off.
+TEST(PlaceLaw, OfClippedDiscsIsThatOfTheRealPads) {
+  Random random(2);
+  int admitted = 0;
+  int sticking = 0;
+  int by_closed_form = 0;
+  Scene scene = testing::walled_square();
+  scene.overhang = Overhang::kClip;
+  const Model model = prepare(scene);
+  const SearchModel search = prepare_search(model, Margin::none());
+  for (int i = 0; i < 4000; ++i) {
+    const int contact = random.below(static_cast<int>(search.contacts.size()));
+    const SearchContact& pusher = search.contacts[static_cast<std::size_t>(contact)];
+    const Vec2 p_OF = random.in_box(0.0499, 0.0499);
+    const PlanarPose X_HO = pose_from_finger(p_OF, random.in(-kPi, kPi));
+    if (model.region.is_whole(X_HO)) continue;
+    const Vec2 e = rotated(random.in(-1.0, 1.0), pusher.stick.n);
+    const double kappa = std::tan(random.in(-1.2, 1.2));
+    if (!holds(ranges_at(search, contact, p_OF, e), kappa)) continue;
+    ++admitted;
+    const double slack = exact_stick_test(model, model.contacts[pusher.contact], 0.0,
+                                          X_HO, e, 1.0, kappa / model.c, Margin::none())
+                             .slack;
+    sticking += slack >= 0.0;
+    by_closed_form +=
+        stick_test(pusher.stick, model.F, p_OF, e, 1.0, kappa / model.c).slack >= 0.0;
+  }
+  EXPECT_GT(admitted, 200);
+  EXPECT_GE(sticking, 0.97 * admitted);
+  EXPECT_LE(by_closed_form, 0.9 * admitted);
+}
+
+TEST(PlaceLaw, CommonRangesAreInBoth) {
+  Random random(3);
+  const auto ranges = [&] {
+    KappaRanges set{.count = 1 + random.below(2)};
+    double at = random.in(-2.0, 0.0);
+    for (int i = 0; i < set.count; ++i) {
+      set.intervals[static_cast<std::size_t>(i)] = {at, at + random.in(0.0, 1.0)};
+      at += random.in(1.0, 2.0);
+    }
+    return set;
+  };
+  for (int i = 0; i < 500; ++i) {
+    const KappaRanges one = ranges();
+    const KappaRanges other = ranges();
+    const KappaRanges both = common(one, other);
+    for (int k = 0; k < 20; ++k) {
+      const double kappa = random.in(-2.5, 4.0);
+      const bool is_common = holds(one, kappa) && holds(other, kappa);
+      if (holds(both, kappa)) EXPECT_TRUE(is_common);
+      if (is_common && both.count < 2) EXPECT_TRUE(holds(both, kappa));
+    }
+  }
+}
+
+TEST(PlaceLaw, PadsBesideTheFaceAreLost) {
+  Scene scene = testing::walled_square();
+  scene.overhang = Overhang::kClip;
+  const Model model = prepare(scene);
+  EXPECT_FALSE(PadsAtPlace(model, {0.0, 0.0}).are_lost());
+  EXPECT_TRUE(PadsAtPlace(model, {0.0, 0.0}).are_whole());
+  EXPECT_FALSE(PadsAtPlace(model, {0.0499, 0.0}).are_whole());
+  EXPECT_FALSE(PadsAtPlace(model, {0.0499, 0.0}).are_lost());
+  EXPECT_TRUE(PadsAtPlace(model, {0.2, 0.0}).are_lost());
+}
+
+}  // namespace
+}  // namespace prehensile

@@ -1,0 +1,96 @@
+#include "planner/walk_search.h"
+
+#include <gtest/gtest.h>
+
+#include "planner/meet_end.h"
+#include "planner/push_search.h"
+#include "planner/shorten.h"
+#include "problems/random_fixtures.h"
+#include "tests/planner/executed_pushes.h"
+#include "tests/planner/planner_cases.h"
+
+namespace prehensile {
+namespace {
+
+using testing::kNoBudget;
+
+Scene random_scene(FixtureObject object, std::uint64_t index) {
+  const FixtureRange range{.object = object, .goals = GoalsFrom::kRandom};
+  return random_fixture(range, 1, index)->scene;
+}
+
+std::optional<std::vector<Move>> walk_in(const SearchModel& search,
+                                         std::int64_t budget = kNoBudget) {
+  const PlanOptions options;
+  Work work{.budget = budget};
+  const Limits limits(options, work);
+  const FlatState start = flat_state(search.model->scene.start);
+  const GoalPlaces goals = goal_places(*search.model, *search.model->scene.goal, start);
+  return search_walks(search, start, goals, limits, work);
+}
+
+/// Walks from the start to the goal by pushes that the exact mechanics does, too; the
+/// same every time.
+TEST(WalkSearch, ReachesTheGoalByPushesThatStick) {
+  testing::Directions directions;
+  int walks = 0;
+  for (std::uint64_t i = 0; i < 16; ++i) {
+    Scene scene = random_scene(static_cast<FixtureObject>(i % 4), i);
+    scene.overhang = i % 3 == 0 ? Overhang::kIgnore : Overhang::kClip;
+    const Model model = prepare(scene);
+    const SearchModel search = prepare_search(model, Margin::none());
+    const auto moves = walk_in(search);
+    if (!moves) continue;
+    ++walks;
+    if (i < 4) EXPECT_EQ(cost_of(search, *moves), cost_of(search, *walk_in(search)));
+    Plan plan = blank_plan(search, scene.start, {});
+    for (const Move& move : *moves) append_move(search, move, plan);
+    meet_ends(model, {}, plan);
+    testing::expect_executable(model, plan, directions);
+  }
+  EXPECT_GE(walks, 8);
+  EXPECT_LT(directions.reversible, directions.pushes);
+}
+
+/// Regrasps for which chains of few pushes, and two trees of a million pushes, found no
+/// plan: loops near the border of the face, where the pads are clipped.
+TEST(WalkSearch, FindsLoopsWhereThePadsAreClipped) {
+  for (const std::uint64_t index : {111, 139, 158}) {
+    const Model model = prepare(random_scene(FixtureObject::kConvex, index));
+    const Plan plan = plan_regrasp(model, {.margin = Margin::none()});
+    EXPECT_EQ(plan.status, PlanStatus::kReachedGoal) << index;
+    EXPECT_EQ(plan.planner, "push") << index;
+  }
+}
+
+TEST(WalkSearch, KeepsToItsBudget) {
+  const Model model = prepare(random_scene(FixtureObject::kConvex, 111));
+  const SearchModel search = prepare_search(model, Margin::none());
+  EXPECT_TRUE(walk_in(search));
+  EXPECT_FALSE(walk_in(search, 1000));
+}
+
+/// A window of angles that no walk may leave on its way.
+TEST(WalkSearch, KeepsToLimitsOfTheAngle) {
+  int walks = 0;
+  for (std::uint64_t i = 0; i < 20; ++i) {
+    Scene scene = random_scene(FixtureObject::kBox, i);
+    const double start = scene.start.X_HO.theta;
+    const double turn = wrapped(*scene.goal->theta - start);
+    const double low = start + std::min(turn, 0.0) - 0.3;
+    const double high = start + std::max(turn, 0.0) + 0.3;
+    scene.limits = GraspLimits{.theta_low = low, .theta_high = high};
+    const Model model = prepare(scene);
+    const auto moves = walk_in(prepare_search(model, Margin::none()));
+    if (!moves) continue;
+    ++walks;
+    for (const Move& move : *moves) {
+      EXPECT_GE(move.to.theta, low - 1e-8);
+      EXPECT_LE(move.to.theta, high + 1e-8);
+    }
+  }
+  EXPECT_GE(walks, 10);
+}
+
+}  // namespace
+}  // namespace prehensile

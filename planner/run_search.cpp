@@ -35,12 +35,17 @@ class RunSearch {
  public:
   RunSearch(const SearchModel& search, const FlatState& start, double to_beat, Work& work)
       : search_(search), start_(start), to_beat_(to_beat), work_(work) {
-    if (search.rings) laws_ = run_laws(*search.model);
-    if (!laws_.empty()) return;
-    const double c = search.model->c;
-    laws_.C.fill(c * c);
+    RunLaws rings;
+    if (search.rings) rings = run_laws(*search.model);
+    laws_.C.fill(search.model->c * search.model->c);
+    if (!rings.empty()) {
+      laws_.C = rings.C;
+      laws_.reach = rings.reach;
+    }
     for (const SearchContact& contact : search.contacts) {
-      laws_.contacts.push_back(ellipsoid_law(contact.stick, search.margin));
+      laws_.contacts.push_back(rings.empty()
+                                   ? ellipsoid_law(contact.stick, search.margin)
+                                   : rings.contacts[contact.contact]);
     }
   }
 
@@ -177,7 +182,7 @@ class RunSearch {
   const FlatState& start_;
   double to_beat_;
   Work& work_;
-  RunLaws laws_;
+  RunLaws laws_;  ///< contacts as in SearchModel
   Chain scratch_;
   std::optional<PadEnvelope> envelope_;  ///< of the pads' points at every angle
   std::optional<Chain> found_;

@@ -208,6 +208,13 @@ class Barrier {
         add_second(u_0, u, -second);
         add_second(u_0, u_0, second);
       }
+      if (p_.beside[k][e] > 0.0) {
+        const double turn = p_.beside[k][e] * side;
+        if (!take(D + p_.retreat * x_[tau] - turn * dz + x_[kV],
+                  slope_of(0.0, -turn, 0.0, p_.retreat, 1.0), &y.turn[e])) {
+          return false;
+        }
+      }
       Gradient border;
       border.add(u, side);
       border.add(kV, 1.0);

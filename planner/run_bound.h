@@ -9,8 +9,10 @@
 ///     mu D -+ du + back tau >= 0
 ///     C dtheta >= h du + (u - u_low) D  - E - slack_low tau
 ///     C dtheta <= h du + (u - u_high) D + E + slack_high tau
+///     beside +-dtheta <= D + retreat tau
 /// h and u being means over the piece, h the height over the face, and E = (mu^2 D^2 -
-/// du^2) / (2 mu) twice the largest area between the chord and a path inside the cone.
+/// du^2) / (2 mu) twice the largest area between the chord and a path inside the cone,
+/// and `beside` the least that a path can be beside the face there.
 /// All of them are convex where tau may be greater than the length; so that gravity may
 /// be used by turning to and fro, as it may in fact. The bound is the value of the
 /// Lagrange dual at multipliers from a barrier method (Boyd and Vandenberghe, Convex

@@ -197,6 +197,7 @@ RunLaw run_law(const Model& model, const PushContact& contact, const PadSection&
   law.t = contact.t;
   law.mu = std::max(kNarrowestCone, std::tan(std::atan(contact.mu) + widening));
   law.jacobian = 2.0 * law.mu;
+  law.face = {law.t.dot(contact.a), law.t.dot(contact.b)};
   law.w = {law.mu * law.n + law.t, law.mu * law.n - law.t};
   const Vec2 gamma = model.mass / model.F * contact.g_O;
   const std::array<Edge, 2> edges = edges_of(contact.mu, widening, gamma, law);
@@ -254,6 +255,7 @@ RunLaw ellipsoid_law(const StickContact& stick, const Margin& margin) {
   law.t = stick.t;
   law.mu = std::max(kNarrowestCone, stick.mu * (1.0 - margin.friction));
   law.jacobian = 2.0 * law.mu;
+  law.face = {law.t.dot(stick.a) + margin.place, law.t.dot(stick.b) - margin.place};
   for (int k = 0; k < 2; ++k) {
     const double side = k == 0 ? 1.0 : -1.0;
     law.w[k] = law.mu * law.n + side * law.t;

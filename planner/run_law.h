@@ -13,6 +13,12 @@
 /// back_k = 0 without gravity; a contact pressed on by gravity has back_k > 0, one that
 /// has to lift some of the weight back_k < 0.
 ///
+/// The pusher advances, at one end of the face at least, so that beside the face, where
+/// both ends lie on one side of the finger axis, turning away from it is limited:
+///     +-dtheta x distance of the finger axis from the face along it <= -n.dp + retreat
+///     dT
+/// where retreat dT is the most that the pusher may go back because gravity helps.
+///
 /// The moment of the pads over C dtheta / |dp| is no constant: small for slow turning,
 /// large for fast. Two sets of the laws of the ends take C from the one and from the
 /// other; in the first the difference costs slack_k = a (dT - |dp|), in the second `low`
@@ -21,6 +27,7 @@
 /// -n.dp, and where gravity lets the motion out of it, the rest costs some dT.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -43,7 +50,9 @@ struct RunLaw {
   double mu = 0.0;        ///< of the widened cone
   std::array<Vec2, 2> w;  ///< its dual edges, mu n + t and mu n - t
   std::array<double, 2> back{};
-  double jacobian = 0.0;                         ///< |cross(w_0, w_1)|
+  double jacobian = 0.0;         ///< |cross(w_0, w_1)|
+  std::array<double, 2> face{};  ///< [m] least and greatest t.p of the face
+  double retreat() const { return std::max(0.0, 0.5 * (back[0] + back[1]) / mu); }
   std::array<std::array<EndLaw, 2>, kSets> end;  ///< of each set, low and high
 };
 

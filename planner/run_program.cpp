@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "planner/segment.h"
+
 namespace prehensile {
 namespace {
 
@@ -95,7 +97,8 @@ struct EndSums {
 EndSums sums_of(const RunProgram& p, const RunMultipliers& multipliers, int piece) {
   const PieceMultipliers& m = multipliers.piece[piece];
   EndSums sums;
-  sums.length -= p.back[0] * m.edge[0] + p.back[1] * m.edge[1];
+  sums.length -=
+      p.back[0] * m.edge[0] + p.back[1] * m.edge[1] + p.retreat * (m.turn[0] + m.turn[1]);
   for (int set = 0; set < RunLaw::kSets; ++set) {
     const Pair& y = m.end[set];
     sums.difference += y[0] - y[1];
@@ -160,12 +163,13 @@ double dual_value(const RunProgram& p, const RunMultipliers& y) {
     const double D = p.D[i];
     later += m.border[1] - m.border[0];
     const double u = m.edge[0] - m.edge[1] + (p.h[i] + 0.5 * D) * sums.difference + later;
-    const double z = turn - sums.turning;
+    const double z =
+        turn - sums.turning + p.beside[i][0] * m.turn[0] - p.beside[i][1] * m.turn[1];
     later += D * sums.difference;
     if (sums.length < std::abs(z)) return -kInfinity;
     const double s = std::sqrt(sums.length * sums.length - z * z) + sums.per_path;
     value += least_of_step(s, D, u, 0.5 * p.area * sums.both / p.mu, p.widest_step[i]) -
-             (m.edge[0] + m.edge[1]) * p.mu * D -
+             (m.edge[0] + m.edge[1]) * p.mu * D - (m.turn[0] + m.turn[1]) * D -
              sums.both * 0.5 * p.area * p.mu * D * D + m.border[0] * p.border_low[i] -
              m.border[1] * p.border_high[i];
     for (int set = 0; set < RunLaw::kSets; ++set) {
@@ -183,6 +187,7 @@ RunMultipliers scaled(const RunMultipliers& y, double factor) {
   for (PieceMultipliers& piece : result.piece) {
     scale(piece.edge);
     scale(piece.border);
+    scale(piece.turn);
     for (Pair& end : piece.end) scale(end);
   }
   for (auto& directions : result.goal) {
@@ -227,6 +232,35 @@ RunProgram::RunProgram(const RunQuestion& question) {
             std::min(border_high[kRunPieces - 1], goal_u + u_reach + widest_rest)};
   goal_z = {question.c * question.turn_low - kRounding,
             question.c * question.turn_high + kRounding};
+  set_beside(question, law, start, u_start);
+}
+
+/// How far, at least, the face is beside the way in each piece: by the outline and by the
+/// cones from the start and to the goal, at depths to which a path may have run back.
+void RunProgram::set_beside(const RunQuestion& question, const RunLaw& law, double start,
+                            double u_start) {
+  retreat = law.retreat();
+  const double back_up = std::max(0.0, back[0]) * question.cap;
+  const double back_down = std::max(0.0, back[1]) * question.cap;
+  const double goal_reach = goal.reach(law.t);
+  const double deepest = level[kRunPieces - 1] + rest;
+  for (int k = 0; k < kRunPieces; ++k) {
+    const double to = level[k];
+    const double from = level[k] - D[k] - retreat * question.cap;
+    const Extent outline =
+        extent_across(*question.outline, -law.n, law.t, start + from - kRounding,
+                      start + to + kRounding);
+    const double high =
+        std::min({outline.high - u_start, mu * to + back_up,
+                  goal_u + goal_reach + mu * (deepest - from) + back_down});
+    const double low = std::max({outline.low - u_start, -mu * to - back_down,
+                                 goal_u - goal_reach - mu * (deepest - from) - back_up});
+    beside[k] = {law.face[0] - u_start - high - kRounding,
+                 low - (law.face[1] - u_start) - kRounding};
+    for (double& distance : beside[k]) {
+      distance = std::max(0.0, distance) / question.c;
+    }
+  }
 }
 
 /// The laws of the contact in the units of the program; what a piece may run back by

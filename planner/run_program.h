@@ -11,10 +11,10 @@ namespace prehensile {
 using Pair = std::array<double, 2>;
 using Pairs = std::array<Pair, RunLaw::kSets>;  // of each set of laws of the ends
 
-/// Multipliers of a piece: both edges, both ends, both borders of the outline. That of
-/// its length follows.
+/// Multipliers of a piece: both edges, both ends, both borders of the outline, both turns
+/// of a face beside the way. That of its length follows.
 struct PieceMultipliers {
-  Pair edge{}, border{};
+  Pair edge{}, border{}, turn{};
   Pairs end{};
 };
 
@@ -54,6 +54,8 @@ struct RunProgram {
   Pairs per_path{};                      // and per length of the path of the finger axis
   std::array<double, kRunPieces + 1> h;  // the last: at its begin
   std::array<double, kRunPieces> border_low, border_high;  // of u after each piece
+  std::array<Pair, kRunPieces> beside{};  // the face, over c: limits turns to +, to -
+  double retreat = 0.0;                   // [m] per tau
   Pair rest_u{};                     // least and greatest u where the last piece begins
   double widest_rest = 0.0;          // [m] of u in the last piece
   GoalArc goal;                      // its slacks a little wider
@@ -75,6 +77,8 @@ struct RunProgram {
 
  private:
   void set_laws(const RunQuestion& question, const RunLaw& law, double u_start);
+  void set_beside(const RunQuestion& question, const RunLaw& law, double start,
+                  double u_start);
 };
 
 /// A bound on the least travel from these multipliers, whatever they are; -infinity where

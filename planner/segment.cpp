@@ -77,4 +77,31 @@ double distance_to_border(const std::vector<Vec2>& outline, const Vec2& p,
   return least;
 }
 
+Extent extent_across(const std::vector<Vec2>& outline, const Vec2& along,
+                     const Vec2& across, double low, double high) noexcept {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Extent extent{kInfinity, -kInfinity};
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2& p = outline[i];
+    const Vec2 d = outline[(i + 1) % outline.size()] - p;
+    const double at = along.dot(p);
+    const double rise = along.dot(d);
+    double first = 0.0, last = 1.0;  // shares of the edge between the two lines
+    if (rise != 0.0) {
+      const auto [near, far] = std::minmax({(low - at) / rise, (high - at) / rise});
+      first = std::max(first, near);
+      last = std::min(last, far);
+    } else if (at < low || at > high) {
+      continue;
+    }
+    if (first > last) continue;
+    for (const double share : {first, last}) {
+      const double value = across.dot(p + share * d);
+      extent.low = std::min(extent.low, value);
+      extent.high = std::max(extent.high, value);
+    }
+  }
+  return extent;
+}
+
 }  // namespace prehensile

@@ -1,6 +1,7 @@
 /// Random instants that tests of laws about pushes share.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -46,6 +47,15 @@ inline double slack_of_pads(const Model& model, const PushContact& contact,
     return ring_slack(model, contact, finger_in_object(X_HO), e, 1.0, omega);
   }
   return exact_stick_test(model, contact, 0.0, X_HO, e, 1.0, omega, Margin::none()).slack;
+}
+
+/// Rate at which the pusher advances, at the end of the face where it does so most.
+inline double advance_of(const PushContact& contact, const Vec2& p_OF, const Vec2& e,
+                         double omega) {
+  const auto rate = [&](const Vec2& end) {
+    return contact.n.dot(e + omega * perp(end - p_OF));
+  };
+  return std::max(rate(contact.a), rate(contact.b));
 }
 
 }  // namespace prehensile::testing

@@ -1,6 +1,7 @@
 #include "planner/local_law.h"
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -10,21 +11,13 @@
 namespace prehensile {
 namespace {
 
+using testing::advance_of;
 using testing::Random;
 using testing::random_kappa;
 using testing::random_law_scene;
 using testing::slack_of_pads;
 
 constexpr double kPi = std::numbers::pi;
-
-/// Rate at which the pusher advances, at the end of the face where it does so most.
-double advance_of(const PushContact& contact, const Vec2& p_OF, const Vec2& e,
-                  double omega) {
-  const auto rate = [&](const Vec2& end) {
-    return contact.n.dot(e + omega * perp(end - p_OF));
-  };
-  return std::max(rate(contact.a), rate(contact.b));
-}
 
 /// Places around p, of some length in any direction.
 PlaceSpan around(const Vec2& p, Random& random) {
@@ -38,8 +31,18 @@ DirectionSpan around_direction(const Vec2& d, Random& random) {
   return {rotated(random.in(-half, half), d), half};
 }
 
+/// A rectangle that holds p.
+std::array<Vec2, 4> corners_around(const Vec2& p, Random& random) {
+  const Vec2 u = random.direction();
+  const Vec2 size = {random.log_in(1e-6, 1e-2), random.log_in(1e-6, 1e-2)};
+  const Vec2 low =
+      p - random.in(0.0, 1.0) * size.x() * u - random.in(0.0, 1.0) * size.y() * perp(u);
+  const Vec2 along = size.x() * u, across = size.y() * perp(u);
+  return {low, low + along, low + along + across, low + across};
+}
+
 struct Tally {
-  int sticking = 0, denied_nearby = 0;
+  int sticking = 0, denied_nearby = 0, sharp = 0;
 };
 
 void check_instant(const Model& model, const LocalLaw& law, Random& random,
@@ -59,6 +62,13 @@ void check_instant(const Model& model, const LocalLaw& law, Random& random,
   EXPECT_TRUE(law.may_move(j, {p_OF, p_OF}, {-e, 0.0})) << kappa;
   EXPECT_TRUE(law.may_move(j, around(p_OF, random), around_direction(-e, random)))
       << kappa;
+  const double share = random.in(-0.95, 0.95);
+  const double travel = std::hypot(1.0, kappa) - share * kappa;
+  const std::array corners = corners_around(p_OF, random);
+  const double least = law.least_travel(j, corners, around_direction(-e, random), share);
+  EXPECT_LE(least, travel * (1.0 + 1e-9)) << kappa;
+  const std::array here = {p_OF};
+  if (law.least_travel(j, here, {-e, 0.0}, share) > 0.95 * travel) ++tally.sharp;
   const DirectionSpan beside{rotated(random.in(-1.0, 1.0), -e), 0.01};
   if (!law.may_move(j, {p_OF, p_OF}, beside)) ++tally.denied_nearby;
 }
@@ -75,6 +85,7 @@ void check_instants(int scenes, int instants, std::uint64_t seed) {
   }
   EXPECT_GT(tally.sticking, scenes * instants / 20);
   EXPECT_GT(tally.denied_nearby, tally.sticking / 20);
+  EXPECT_GT(tally.sharp, tally.sticking / 50);
 }
 
 TEST(LocalLaw, DeniesNoInstantThatSticks) { check_instants(60, 2000, 1); }

@@ -9,18 +9,23 @@
 #include "planner/segment.h"
 #include "problems/published_regrasps.h"
 #include "scene/outline.h"
-#include "tests/support/random.h"
+#include "tests/planner/law_cases.h"
 
 namespace prehensile {
 namespace {
 
+using testing::advance_of;
 using testing::Random;
 
 constexpr double kPi = std::numbers::pi;
 
-/// Slack of a sticking push by pads whose friction is the same at every angle.
+/// Slack of a sticking push by pads whose friction is the same at every angle; negative
+/// where the pusher recedes at one of its ends.
 double slack_of(const Model& model, const PushContact& contact, const Vec2& p_OF,
                 const Vec2& e, double travel, double turn) {
+  for (const double done : {0.0, travel}) {
+    if (advance_of(contact, p_OF - done * e, e, turn / travel) < 0.0) return -1.0;
+  }
   if (has_ring_pads(model)) return ring_slack(model, contact, p_OF, e, travel, turn);
   return exact_stick_test(model, contact, 0.0, pose_from_finger(p_OF, 0.0), e, travel,
                           turn, Margin::none())

@@ -13,6 +13,7 @@
 namespace prehensile {
 namespace {
 
+using testing::advance_of;
 using testing::Random;
 using testing::random_kappa;
 using testing::random_law_scene;
@@ -106,7 +107,7 @@ TEST(PadSection, OfADiscHoldsTheFrictionOfItsCircles) {
 }
 
 struct Tally {
-  int sticking = 0, edges_near = 0, ends_near = 0;
+  int sticking = 0, edges_near = 0, ends_near = 0, turns_near = 0;
 };
 
 /// One instant that sticks with the pads themselves obeys the law; `weightless`: that
@@ -153,6 +154,15 @@ void check_instant(const Model& model, const RunLaws& laws, bool weightless,
     least = std::min({least, above, below});
   }
   if (least < 3e-3 * dT) ++tally.ends_near;
+  if (advance_of(contact, p_OF, e, kappa / model.c) < 0.0) return;
+  const double at = law.t.dot(p_OF);
+  for (const double turn : {kappa / model.c, -kappa / model.c}) {
+    const double beside = turn == kappa / model.c ? law.face[0] - at : at - law.face[1];
+    if (beside <= 0.0) continue;
+    const double spare = law.n.dot(e) + law.retreat() * dT - turn * beside;
+    EXPECT_GE(spare, -1e-9) << kappa;
+    if (spare < 0.1 * dT) ++tally.turns_near;
+  }
 }
 
 void check_instants(int scenes, int instants, std::uint64_t seed) {
@@ -171,6 +181,7 @@ void check_instants(int scenes, int instants, std::uint64_t seed) {
   EXPECT_GT(tally.sticking, scenes * instants / 20);
   EXPECT_GT(tally.edges_near, tally.sticking / 100);
   EXPECT_GT(tally.ends_near, tally.sticking / 1000);
+  EXPECT_GT(tally.turns_near, tally.sticking / 10'000);
 }
 
 TEST(RunLaws, HoldAtEveryInstantThatSticks) { check_instants(100, 4000, 2); }

@@ -114,5 +114,38 @@ TEST(Segment, NeedsNoHeap) {
   EXPECT_NEAR(distance, 0.01, 1e-12);
 }
 
+/// Of the part of the polygon between two lines: no point of it is outside, and some are
+/// on its ends.
+TEST(Segment, ExtentsHoldThePolygon) {
+  Random random(8);
+  for (int i = 0; i < 200; ++i) {
+    const std::vector<Vec2> outline = star(random);
+    const Vec2 along = random.direction();
+    const double low = random.in(-0.06, 0.06);
+    const double high = low + random.log_in(1e-4, 0.05);
+    const Extent extent = extent_across(outline, along, perp(along), low, high);
+    double least = 1.0, most = -1.0;
+    for (int k = 0; k < 2000; ++k) {
+      const Vec2 p = random.in(low, high) * along + random.in(-0.06, 0.06) * perp(along);
+      if (!contains(outline, p)) continue;
+      least = std::min(least, perp(along).dot(p));
+      most = std::max(most, perp(along).dot(p));
+    }
+    if (least > most) continue;
+    EXPECT_LE(extent.low, least);
+    EXPECT_GE(extent.high, most);
+    EXPECT_NEAR(extent.low, least, 0.01);
+    EXPECT_NEAR(extent.high, most, 0.01);
+  }
+  const Extent bar = extent_across(tee(), {1.0, 0.0}, {0.0, 1.0}, -0.04, -0.03);
+  EXPECT_DOUBLE_EQ(bar.low, -0.05);
+  EXPECT_DOUBLE_EQ(bar.high, 0.05);
+  const Extent stem = extent_across(tee(), {1.0, 0.0}, {0.0, 1.0}, 0.0, 0.01);
+  EXPECT_DOUBLE_EQ(stem.low, -0.015);
+  EXPECT_DOUBLE_EQ(stem.high, 0.015);
+  const Extent none = extent_across(tee(), {1.0, 0.0}, {0.0, 1.0}, 0.06, 0.07);
+  EXPECT_GT(none.low, none.high);
+}
+
 }  // namespace
 }  // namespace prehensile

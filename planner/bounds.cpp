@@ -8,6 +8,7 @@
 #include "planner/angle_scan.h"
 #include "planner/goal.h"
 #include "planner/planner.h"
+#include "planner/slab_travel.h"
 #include "planner/word_bound.h"
 
 namespace prehensile {
@@ -209,7 +210,7 @@ constexpr double kProofRounding = 1e-7;
 class Prover {
  public:
   Prover(const Model& model, const Grasp& start, const Goal& goal, bool weightless)
-      : roll_(roll_cost(model, start, goal)) {
+      : roll_(roll_cost(model, start, goal)), slabs_(model, weightless) {
     const GoalSet set(model, start, goal);
     question_.straight = set.distance();
     if (!set.fixes_place() || question_.straight <= 0.0) return;
@@ -219,21 +220,24 @@ class Prover {
     question_.p_OF = finger_in_object(start.X_HO);
     question_.theta = start.X_HO.theta;
     question_.goal = set.for_words();
+    question_.slabs = &slabs_;
   }
   Prover(const Prover&) = delete;
   Prover& operator=(const Prover&) = delete;
 
   /// A bound of at most `target`; 0 where the words of contacts say nothing. Counts
   /// `nodes` down.
-  double prove(double target, std::int64_t& nodes) const {
+  double prove(double target, std::int64_t& nodes, const WordVisitor& visit = {}) const {
     if (laws_.empty()) return 0.0;
     const double wanted =
         (std::min(target, kGreatestTarget) - roll_) * (1.0 + kProofRounding);
-    return roll_ + word_bound(scene_, question_, wanted, nodes) * (1.0 - kProofRounding);
+    return roll_ +
+           word_bound(scene_, question_, wanted, nodes, visit) * (1.0 - kProofRounding);
   }
 
  private:
   double roll_;
+  SlabTravel slabs_;
   RunLaws laws_;
   WordScene scene_;
   WordQuestion question_;
@@ -280,6 +284,12 @@ LowerBound lower_bound(const Model& model, const Grasp& start, const Goal& goal,
     if (!done) break;
   }
   return bound;
+}
+
+void visit_words(const Model& model, const Grasp& start, const Goal& goal, double target,
+                 bool weightless, std::int64_t& nodes,
+                 const std::function<void(const WordNode&)>& visit) {
+  Prover(model, start, goal, weightless).prove(target, nodes, visit);
 }
 
 bool bound_holds(const Model& model, const Grasp& start, const Goal& goal, double claimed,

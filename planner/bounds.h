@@ -3,10 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "mechanics/model.h"
 
 namespace prehensile {
+
+struct WordNode;
 
 /// Least distance in (p_OF, c theta) from a grasp to the goal set, rounded down [m].
 double distance_to_goal(const Model& model, const Grasp& start, const Goal& goal);
@@ -45,6 +48,14 @@ struct LowerBound {
 /// mechanics in space. Deterministic.
 LowerBound lower_bound(const Model& model, const Grasp& start, const Goal& goal,
                        double cost, const BoundOptions& options = {});
+
+/// The nodes that the branch and bound of `lower_bound` divides in order to prove
+/// `target`: sequences of contacts with the places between them, where a plan cheaper
+/// than `target` would have to be, best first for each number of placements. Counts
+/// `nodes` down. None where that bound is trivial.
+void visit_words(const Model& model, const Grasp& start, const Goal& goal, double target,
+                 bool weightless, std::int64_t& nodes,
+                 const std::function<void(const WordNode&)>& visit);
 
 /// Whether J >= `claimed` can be proved with this work: the answer that a reader of a
 /// plan wants.

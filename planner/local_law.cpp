@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -10,7 +11,7 @@
 namespace prehensile {
 namespace {
 
-constexpr int kEllipsoidBoxes = 256;
+constexpr int kEllipsoidBoxes = 1024;
 
 /// Over F, F c and |v|: by so much an inequality may fail and still count as met.
 constexpr double kRounding = 1e-8;
@@ -62,6 +63,8 @@ FrictionBox beyond(const FrictionBox& last) {
   return box;
 }
 
+double middle_sine(const FrictionBox& box) { return box.sine_low + box.sine_high; }
+
 std::vector<FrictionBox> boxes_of(const Model& model) {
   for (const PushContact& contact : model.contacts) {
     if (model.needs_space(contact)) return {};
@@ -79,7 +82,28 @@ std::vector<FrictionBox> boxes_of(const Model& model) {
     }
     if (last && std::isfinite(last->sigma_high)) boxes.push_back(beyond(box_of(*last)));
   }
+  std::ranges::stable_sort(boxes, {}, &middle_sine);
   return boxes;
+}
+
+FrictionBox united(const FrictionBox& a, const FrictionBox& b) {
+  return {std::min(a.along_low, b.along_low),     std::max(a.along_high, b.along_high),
+          std::max(a.across, b.across),           std::min(a.moment_low, b.moment_low),
+          std::max(a.moment_high, b.moment_high), std::min(a.cosine_low, b.cosine_low),
+          std::max(a.cosine_high, b.cosine_high), std::min(a.sine_low, b.sine_low),
+          std::max(a.sine_high, b.sine_high)};
+}
+
+/// Leaves in the second half, as many as a power of two: the last box repeated.
+std::vector<FrictionBox> tree_over(const std::vector<FrictionBox>& boxes) {
+  if (boxes.empty()) return {};
+  const std::size_t leaves = std::bit_ceil(boxes.size());
+  std::vector<FrictionBox> tree(2 * leaves, boxes.back());
+  std::ranges::copy(boxes, tree.begin() + static_cast<std::ptrdiff_t>(leaves));
+  for (std::size_t i = leaves - 1; i > 0; --i) {
+    tree[i] = united(tree[2 * i], tree[2 * i + 1]);
+  }
+  return tree;
 }
 
 /// The greatest of factor x value over an interval.
@@ -122,9 +146,9 @@ Row edge_of_cone(const PushContact& contact, const Vec2& gamma, double side,
 
 /// Moment about an end of the face over F c: side +1 about b, -1 about a.
 Row end_of_face(const Model& model, const Vec2& end, const Vec2& gamma, double side,
-                const PlaceSpan& places, const DirectionSpan& directions) {
+                std::span<const Vec2> places, const DirectionSpan& directions) {
   Row row{-INFINITY, side, 0.0, -side * cross(model.p_OCom - end, gamma) / model.c};
-  for (const Vec2& place : {places.a, places.b}) {
+  for (const Vec2& place : places) {
     const Vec2 lever = (place - end) / model.c;
     row.along = std::max(row.along, lever.norm() * directions.half_angle -
                                         side * cross(lever, directions.middle));
@@ -134,36 +158,142 @@ Row end_of_face(const Model& model, const Vec2& end, const Vec2& gamma, double s
 }
 
 Advance advance_of(const PushContact& contact, const Vec2& end, double c,
-                   const PlaceSpan& places, const DirectionSpan& directions) {
-  const auto turning = [&](const Vec2& place) {
-    return contact.n.dot(perp(end - place)) / c;
+                   std::span<const Vec2> places, const DirectionSpan& directions) {
+  Advance advance{directions.half_angle - contact.n.dot(directions.middle), INFINITY,
+                  -INFINITY};
+  for (const Vec2& place : places) {
+    const double turning = contact.n.dot(perp(end - place)) / c;
+    advance.turning_low = std::min(advance.turning_low, turning);
+    advance.turning_high = std::max(advance.turning_high, turning);
+  }
+  return advance;
+}
+
+/// What a contact asks of the friction of the pads.
+class Demands {
+ public:
+  Demands(const Model& model, const PushContact& contact, bool weightless,
+          std::span<const Vec2> places, const DirectionSpan& directions)
+      : advances_{advance_of(contact, contact.a, model.c, places, directions),
+                  advance_of(contact, contact.b, model.c, places, directions)} {
+    const Vec2 gamma = model.mass / model.F * contact.g_O;
+    add_rows(model, contact, gamma, places, directions);
+    if (weightless) add_rows(model, contact, Vec2::Zero(), places, directions);
+  }
+
+  bool may_be_met(const FrictionBox& box) const {
+    return std::all_of(rows_.begin(), rows_.begin() + count_,
+                       [&](const Row& row) { return row.may_hold(box); }) &&
+           std::any_of(advances_.begin(), advances_.end(),
+                       [&](const Advance& end) { return end.may_hold(box); });
+  }
+
+ private:
+  void add_rows(const Model& model, const PushContact& contact, const Vec2& gamma,
+                std::span<const Vec2> places, const DirectionSpan& directions) {
+    rows_[count_++] = edge_of_cone(contact, gamma, 1.0, directions);
+    rows_[count_++] = edge_of_cone(contact, gamma, -1.0, directions);
+    rows_[count_++] = end_of_face(model, contact.b, gamma, 1.0, places, directions);
+    rows_[count_++] = end_of_face(model, contact.a, gamma, -1.0, places, directions);
+  }
+
+  std::array<Row, 8> rows_;
+  int count_ = 0;
+  std::array<Advance, 2> advances_;
+};
+
+/// Least sigma - share kappa in a box: (1 - share sin phi) / cos phi, which falls up to
+/// where the sine is the share and rises from there.
+double least_in(const FrictionBox& box, double share) {
+  const double sine = std::clamp(share, box.sine_low, box.sine_high);
+  const double squared = (1.0 - sine) * (1.0 + sine);
+  return squared > 0.0 ? (1.0 - share * sine) / std::sqrt(squared) : INFINITY;
+}
+
+/// Nodes of a tree that are still to be looked at: more than twice its depth.
+template <class Entry>
+class Pile {
+ public:
+  bool empty() const { return count_ == 0; }
+  void push(const Entry& entry) { entries_[count_++] = entry; }
+  Entry pop() { return entries_[--count_]; }
+
+ private:
+  std::array<Entry, 64> entries_;
+  int count_ = 0;
+};
+
+bool is_leaf(const std::vector<FrictionBox>& tree, std::size_t node) {
+  return 2 * node >= tree.size();
+}
+
+bool may_be_met_in(const std::vector<FrictionBox>& tree, const Demands& demands) {
+  Pile<std::size_t> open;
+  open.push(1);
+  while (!open.empty()) {
+    const std::size_t node = open.pop();
+    if (!demands.may_be_met(tree[node])) continue;
+    if (is_leaf(tree, node)) return true;
+    open.push(2 * node);
+    open.push(2 * node + 1);
+  }
+  return false;
+}
+
+/// From the cheaper branch on.
+double least_in_tree(const std::vector<FrictionBox>& tree, const Demands& demands,
+                     double share) {
+  struct Branch {
+    double cost;
+    std::size_t node;
   };
-  const auto [low, high] = std::minmax({turning(places.a), turning(places.b)});
-  return {directions.half_angle - contact.n.dot(directions.middle), low, high};
+  const auto branch_to = [&](std::size_t node) -> Branch {
+    return {least_in(tree[node], share), node};
+  };
+  double least = INFINITY;
+  Pile<Branch> open;
+  open.push(branch_to(1));
+  while (!open.empty()) {
+    const Branch branch = open.pop();
+    if (branch.cost >= least || !demands.may_be_met(tree[branch.node])) continue;
+    if (is_leaf(tree, branch.node)) {
+      least = branch.cost;
+      continue;
+    }
+    const Branch one = branch_to(2 * branch.node);
+    const Branch other = branch_to(2 * branch.node + 1);
+    open.push(one.cost < other.cost ? other : one);
+    open.push(one.cost < other.cost ? one : other);
+  }
+  return least;
 }
 
 }  // namespace
 
-LocalLaw::LocalLaw(const Model& model) : model_(model), boxes_(boxes_of(model)) {}
+LocalLaw::LocalLaw(const Model& model, bool weightless)
+    : model_(model), weightless_(weightless), tree_(tree_over(boxes_of(model))) {}
+
+bool LocalLaw::is_in_cone(const PushContact& contact,
+                          const DirectionSpan& directions) const noexcept {
+  const Vec2 gamma = model_.mass / model_.F * contact.g_O;
+  return edge_of_cone(contact, gamma, 1.0, directions).may_hold(tree_[1]) &&
+         edge_of_cone(contact, gamma, -1.0, directions).may_hold(tree_[1]);
+}
 
 bool LocalLaw::may_move(int contact, const PlaceSpan& places,
                         const DirectionSpan& directions) const noexcept {
   const PushContact& pushed = model_.contacts[contact];
-  const Vec2 gamma = model_.mass / model_.F * pushed.g_O;
-  const std::array rows = {
-      edge_of_cone(pushed, gamma, 1.0, directions),
-      edge_of_cone(pushed, gamma, -1.0, directions),
-      end_of_face(model_, pushed.b, gamma, 1.0, places, directions),
-      end_of_face(model_, pushed.a, gamma, -1.0, places, directions)};
-  const std::array advances = {
-      advance_of(pushed, pushed.a, model_.c, places, directions),
-      advance_of(pushed, pushed.b, model_.c, places, directions)};
-  return std::any_of(boxes_.begin(), boxes_.end(), [&](const FrictionBox& box) {
-    return std::all_of(rows.begin(), rows.end(),
-                       [&](const Row& row) { return row.may_hold(box); }) &&
-           std::any_of(advances.begin(), advances.end(),
-                       [&](const Advance& end) { return end.may_hold(box); });
-  });
+  const std::array ends = {places.a, places.b};
+  return is_known() && is_in_cone(pushed, directions) &&
+         may_be_met_in(tree_, {model_, pushed, weightless_, ends, directions});
+}
+
+double LocalLaw::least_travel(int contact, std::span<const Vec2> corners,
+                              const DirectionSpan& directions,
+                              double share) const noexcept {
+  const PushContact& pushed = model_.contacts[contact];
+  if (!is_known() || !is_in_cone(pushed, directions)) return INFINITY;
+  return least_in_tree(tree_, {model_, pushed, weightless_, corners, directions}, share);
 }
 
 }  // namespace prehensile

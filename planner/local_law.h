@@ -7,6 +7,7 @@
 /// no friction in the boxes allows.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "mechanics/model.h"
@@ -37,20 +38,33 @@ struct FrictionBox {
 class LocalLaw {
  public:
   /// Known of whole pads: soft points, discs, and what is alike at every quarter turn
-  /// (pad_section.h). `model` must outlive the law.
-  explicit LocalLaw(const Model& model);
+  /// (pad_section.h). `model` must outlive the law. `weightless`: of pushes that stick
+  /// without gravity as well (Margin::weightless).
+  explicit LocalLaw(const Model& model, bool weightless = false);
 
   /// False: these pads have none, or pushes need the mechanics in space.
-  bool is_known() const { return !boxes_.empty(); }
+  bool is_known() const { return !tree_.empty(); }
 
   /// Whether the contact, wherever along its face its pusher stands, may stick and move
   /// the finger axis in one of these directions at one of these places. No heap.
   bool may_move(int contact, const PlaceSpan& places,
                 const DirectionSpan& directions) const noexcept;
 
+  /// The least (dT - share c dtheta) / |dp| of such motions at places with these corners,
+  /// a convex polygon; infinity if there are none. `share` in (-1, 1). No heap.
+  double least_travel(int contact, std::span<const Vec2> corners,
+                      const DirectionSpan& directions, double share) const noexcept;
+
  private:
+  /// Whether any friction of the pads is within the friction cone.
+  bool is_in_cone(const PushContact& contact,
+                  const DirectionSpan& directions) const noexcept;
+
   const Model& model_;
-  std::vector<FrictionBox> boxes_;
+  bool weightless_;
+  /// The boxes, by the sine of phi, are the leaves; node i is the union of 2 i and
+  /// 2 i + 1, and node 1 that of all.
+  std::vector<FrictionBox> tree_;
 };
 
 }  // namespace prehensile

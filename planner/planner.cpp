@@ -19,6 +19,7 @@
 #include "planner/refuse.h"
 #include "planner/replay.h"
 #include "planner/run_search.h"
+#include "planner/word_plans.h"
 #include "primitives/uncertainty.h"
 
 namespace prehensile {
@@ -61,21 +62,30 @@ bool passes_check(const SearchModel& search, const PlanOptions& options, Work& w
   return check_exactly(model, options.transition, plan, &why);
 }
 
-/// Polishes a plan found and puts it to the exact check, the plan as found if the shorter
-/// one fails; undecided with the reason if both fail.
+/// Polishes a plan found and puts it to the exact check, then a longer one if the shorter
+/// one fails, the plan as found last; undecided with the reason if all fail.
 void finish(const SearchModel& search, const PlanOptions& options, const Limits& limits,
             Work& work, Plan& plan) {
   std::string why;
   if (work.meter) work.meter->enter("polish");
   if (options.polish) {
+    const auto keep_if_passes = [&](Plan& shorter) {
+      if (passes_check(search, options, work, shorter, why)) {
+        plan = std::move(shorter);
+        return true;
+      }
+      plan.instants = shorter.instants;
+      return false;
+    };
     Plan shorter = plan;
     improve_by_run(search, limits, work, shorter);
     polish(search, limits, work, shorter);
-    if (passes_check(search, options, work, shorter, why)) {
-      plan = std::move(shorter);
-      return;
+    Plan shortest = shorter;
+    if (improve_by_words(search, limits, work, shortest)) {
+      if (keep_if_passes(shortest)) return;
+      shorter.instants = plan.instants;
     }
-    plan.instants = shorter.instants;
+    if (keep_if_passes(shorter)) return;
   }
   if (passes_check(search, options, work, plan, why)) return;
   set_undecided(plan, "the plan found fails its exact check: " + why);

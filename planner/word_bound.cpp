@@ -5,12 +5,14 @@
 #include <limits>
 
 #include "planner/portals.h"
+#include "planner/slab_travel.h"
 #include "scene/outline.h"
 
 namespace prehensile {
 namespace {
 
 constexpr int kMostPlacements = 6;
+constexpr int kPlacementsOfSlabs = 3;  // from which on it pays to ask what slabs cost
 constexpr std::int64_t kNodesPerRun = 700;  // as long as a bound of a run takes
 
 /// A node that is open: best first, of equal ones the older.
@@ -25,8 +27,9 @@ struct OpenNode {
 /// Nodes of one search, best first.
 class OpenNodes {
  public:
-  OpenNodes(const WordScene& scene, double target, std::int64_t& nodes)
-      : scene_(scene), target_(target), nodes_(nodes) {}
+  OpenNodes(const WordScene& scene, double target, std::int64_t& nodes,
+            const WordVisitor& visit)
+      : scene_(scene), target_(target), nodes_(nodes), visit_(visit) {}
 
   /// Bounds a node, and keeps it if it may hold a plan.
   void add(WordNode& node) {
@@ -45,6 +48,7 @@ class OpenNodes {
       if (node.split == WordNode::Split::kNone) return node.bound;
       heap_.pop_back();
       free_.push_back(index);
+      if (visit_) visit_(node);
       divide(question, node);
     }
     return heap_.empty() ? target_ : std::min(target_, heap_.front().bound);
@@ -128,6 +132,7 @@ class OpenNodes {
   const WordScene& scene_;
   double target_;
   std::int64_t& nodes_;
+  const WordVisitor& visit_;
   std::vector<WordNode> pool_;
   std::vector<int> free_;  // places of the pool
   std::vector<OpenNode> heap_;
@@ -150,12 +155,12 @@ PointBox bounding_box(const std::vector<Vec2>& outline) {
 class SingleRuns {
  public:
   SingleRuns(const WordScene& scene, const WordQuestion& question, double target,
-             std::int64_t& nodes)
+             std::int64_t& nodes, const WordVisitor& visit)
       : scene_(scene),
         question_(question),
         target_(target),
         nodes_(nodes),
-        others_(scene, target, nodes) {}
+        others_(scene, target, nodes, visit) {}
 
   /// `least`: a bound that is known.
   void add(int contact, double low, double high, double least) {
@@ -244,8 +249,8 @@ class SingleRuns {
 
 /// All plans of one placement.
 double single_runs(const WordScene& scene, const WordQuestion& question, double target,
-                   std::int64_t& nodes) {
-  SingleRuns runs(scene, question, target, nodes);
+                   std::int64_t& nodes, const WordVisitor& visit) {
+  SingleRuns runs(scene, question, target, nodes, visit);
   const auto pieces = goal_pieces(scene, question, (target - 1.0) * scene.L);
   const int contacts = static_cast<int>(scene.laws->contacts.size());
   for (int contact = 0; contact < contacts; ++contact) {
@@ -254,10 +259,19 @@ double single_runs(const WordScene& scene, const WordQuestion& question, double 
   return runs.run();
 }
 
+/// Least travel to a piece of the goal set, whatever the contacts [m].
+double least_way(const WordQuestion& question, const TurnPiece& piece, int placements) {
+  if (!question.slabs || placements < kPlacementsOfSlabs) return question.straight;
+  return std::max(
+      question.straight,
+      question.slabs->least(question.p_OF, goal_arc(question, piece.low, piece.high),
+                            piece.low, piece.high));
+}
+
 /// All words of this many placements.
 double words(const WordScene& scene, const WordQuestion& question, int placements,
-             double target, std::int64_t& nodes) {
-  OpenNodes open(scene, target, nodes);
+             double target, std::int64_t& nodes, const WordVisitor& visit) {
+  OpenNodes open(scene, target, nodes, visit);
   const auto pieces = goal_pieces(scene, question, (target - placements) * scene.L);
   const int contacts = static_cast<int>(scene.laws->contacts.size());
   WordNode node;
@@ -266,19 +280,27 @@ double words(const WordScene& scene, const WordQuestion& question, int placement
   node.box[0].centre = question.p_OF;
   const PointBox anywhere = bounding_box(scene.outline);
   for (int i = 1; i < placements; ++i) node.box[i] = anywhere;
-  node.bound = placements + question.straight / scene.L;
+  std::vector<WordNode> ends;
+  double least = target;
+  for (const TurnPiece& piece : pieces) {
+    node.bound = placements + least_way(question, piece, placements) / scene.L;
+    if (node.bound >= target) continue;
+    set_goal(question, piece.low, piece.high, node);
+    ends.push_back(node);
+    least = std::min(least, node.bound);
+  }
+  if (ends.empty()) return target;
   std::array<int, kMostPlacements> word{};
   for (;;) {
-    bool repeats = false;
-    for (int i = 0; i < placements; ++i) {
-      node.contact[i + 1] = static_cast<short>(word[i]);
-      repeats = repeats || (i > 0 && word[i] == word[i - 1]);
-    }
+    const bool repeats = std::adjacent_find(word.begin(), word.begin() + placements) !=
+                         word.begin() + placements;
     if (!repeats) {
-      if (nodes <= 0) return std::min(target, node.bound);
-      for (const TurnPiece& piece : pieces) {
-        WordNode child = node;
-        set_goal(question, piece.low, piece.high, child);
+      if (nodes <= 0) return least;
+      for (const WordNode& end : ends) {
+        WordNode child = end;
+        for (int i = 0; i < placements; ++i) {
+          child.contact[i + 1] = static_cast<short>(word[i]);
+        }
         open.add(child);
       }
     }
@@ -302,15 +324,23 @@ WordScene word_scene(const Model& model, const RunLaws& laws) {
 }
 
 double word_bound(const WordScene& scene, const WordQuestion& question, double target,
-                  std::int64_t& nodes) {
+                  std::int64_t& nodes, const WordVisitor& visit) {
   double best = target;
   for (int placements = 1;; ++placements) {
-    const double least = placements + question.straight / scene.L;
+    double least = placements + question.straight / scene.L;
     if (least >= best) return best;
+    if (question.slabs && placements >= kPlacementsOfSlabs) {
+      double way = (best - placements) * scene.L;
+      for (const TurnPiece& piece : goal_pieces(scene, question, way)) {
+        way = std::min(way, least_way(question, piece, placements));
+      }
+      least = placements + way / scene.L;
+      if (least >= best) return best;
+    }
     if (placements > kMostPlacements || nodes <= 0) return std::min(best, least);
     const double bound = placements == 1
-                             ? single_runs(scene, question, best, nodes)
-                             : words(scene, question, placements, best, nodes);
+                             ? single_runs(scene, question, best, nodes, visit)
+                             : words(scene, question, placements, best, nodes, visit);
     best = std::min(best, bound);
   }
 }

@@ -17,11 +17,14 @@ struct WordGoal {
   double place_slack = 0.0, slack_per_turn = 0.0;
 };
 
+class SlabTravel;
+
 struct WordQuestion {
   Vec2 p_OF = Vec2::Zero();  ///< start [m]
   double theta = 0.0;        ///< [rad]
   WordGoal goal;
   double straight = 0.0;  ///< [m] least travel to the goal set whatever the contacts
+  SlabTravel* slabs = nullptr;  ///< knows more of that, after some milliseconds
 };
 
 inline constexpr double kNarrowestTurn = 1e-3;  ///< [rad] of a piece that is halved

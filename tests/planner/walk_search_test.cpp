@@ -42,7 +42,9 @@ TEST(WalkSearch, ReachesTheGoalByPushesThatStick) {
     const auto moves = walk_in(search);
     if (!moves) continue;
     ++walks;
-    if (i < 4) EXPECT_EQ(cost_of(search, *moves), cost_of(search, *walk_in(search)));
+    if (i < 4) {
+      EXPECT_EQ(cost_of(search, *moves), cost_of(search, *walk_in(search)));
+    }
     Plan plan = blank_plan(search, scene.start, {});
     for (const Move& move : *moves) append_move(search, move, plan);
     meet_ends(model, {}, plan);

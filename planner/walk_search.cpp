@@ -25,8 +25,9 @@ constexpr int kBuckets = 400;
 
 constexpr std::size_t kMostLabels = 400'000;
 
-/// As many labels are offered in the time of a stick test, about.
+/// As many labels are offered, and buckets compared, in the time of a stick test, about.
 constexpr int kEdgesPerTest = 8;
+constexpr int kBucketsPerTest = 100;
 
 /// Walks of which some push turns out not to stick; its edge is cut, and another walk
 /// looked for.
@@ -162,6 +163,9 @@ class WalkSearch {
   void offer(const Label& label) {
     const auto [low, high] = buckets_of(label);
     const std::size_t first = first_bucket(label);
+    buckets_compared_ += 1 + high - low;
+    work_.other += buckets_compared_ / kBucketsPerTest;
+    buckets_compared_ %= kBucketsPerTest;
     const auto cost = static_cast<float>(label.cost);
     const int index = static_cast<int>(labels_.size());
     bool is_kept = false;
@@ -228,6 +232,7 @@ class WalkSearch {
   const double c_;                   // [m]
   TurnWindow window_;                // of c dtheta [m]
   std::vector<double> rest_;         // of the cost from each node, at least
+  int buckets_compared_ = 0;         // and not yet counted as work
   std::vector<float> bucket_costs_;  // by node and bucket of the turn
   std::vector<int> bucket_labels_;
   std::vector<Label> labels_;

@@ -189,9 +189,6 @@ double roll_cost(const Model& model, const Grasp& start, const Goal& goal) {
   return roll > 0.0 ? 1.0 + roll / model.L : 0.0;
 }
 
-/// A gap of 10 %, and a little less, so that rounding does not make it more.
-constexpr double kGapAsked = 1.0999;
-
 /// Relative rounding that a claimed bound is granted.
 constexpr double kAcceptance = 1e-6;
 

@@ -23,7 +23,13 @@ double trivial_bound(const Model& model, const Grasp& start, const Goal& goal);
 /// and no bound.
 double guide_bound(const Model& model, const Grasp& start, const Goal& goal);
 
+/// Cost over bound that is good enough: a gap of 10 %, and a little less, so that
+/// rounding does not make it more.
+inline constexpr double kGapAsked = 1.0999;
+
 /// Work of the bounds below: boxes of switch points looked at, about a microsecond each.
+/// What slabs cost (slab_travel.h) is not in it: 1 to 20 ms for a scene and a goal, where
+/// it comes to plans of three placements.
 inline constexpr std::int64_t kBoundNodes = 6000;
 
 struct BoundOptions {
@@ -41,7 +47,8 @@ struct LowerBound {
 /// prove that no plan costs less than `cost` / 1.1, then that none costs less than
 /// `cost`. Nothing is tried where the trivial bound is within 10 % of the cost. By a
 /// convex program for one placement (run_bound.h), and by branch and bound over the
-/// sequences of contacts and the places where they switch (word_bound.h). Over round pads
+/// sequences of contacts and the places where they switch (word_bound.h), with what a way
+/// across the object costs whichever contacts push (slab_travel.h). Over round pads
 /// it is a bound for plans that stick with their rings (ring_pads.h), as every plan has
 /// to. Trivial where the goal leaves a coordinate of the place free, where the pads are
 /// neither soft points nor whole discs wherever they are, and where pushes need the

@@ -30,6 +30,12 @@ double travel_of(const Model& model, const PlannedPush& planned) {
 
 }  // namespace
 
+bool Plan::rolls() const {
+  return std::any_of(pushes.begin(), pushes.end(), [](const PlannedPush& push) {
+    return std::holds_alternative<Roll>(push.push);
+  });
+}
+
 std::string_view name(PlanStatus status) {
   switch (status) {
     case PlanStatus::kNotRun:

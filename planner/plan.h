@@ -121,6 +121,7 @@ struct Plan {
     return status == PlanStatus::kReachedGoal || status == PlanStatus::kNothingToDo;
   }
   double gap() const { return (cost - lower_bound) / lower_bound; }
+  bool rolls() const;  ///< some push is a roll
 };
 
 /// Of each finger during a push [N].

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "planner/baselines.h"
 #include "planner/bounds.h"
@@ -62,32 +63,33 @@ bool passes_check(const SearchModel& search, const PlanOptions& options, Work& w
   return check_exactly(model, options.transition, plan, &why);
 }
 
-/// Polishes a plan found and puts it to the exact check, then a longer one if the shorter
-/// one fails, the plan as found last; undecided with the reason if all fail.
+/// A plan found, polished in two ways, the cheapest first: what is put to the exact check
+/// in this order.
+std::vector<Plan> from_cheapest(const SearchModel& search, const PlanOptions& options,
+                                const Limits& limits, Work& work, const Plan& plan) {
+  if (!options.polish) return {plan};
+  Plan shorter = plan;
+  improve_by_run(search, limits, work, shorter);
+  polish(search, limits, work, shorter);
+  Plan shortest = shorter;
+  if (!improve_by_words(search, limits, work, shortest)) return {shorter, plan};
+  return {shortest, shorter, plan};
+}
+
+/// Polishes a plan found and puts it to the exact check; undecided with the reason if it
+/// fails as it was found, too.
 void finish(const SearchModel& search, const PlanOptions& options, const Limits& limits,
             Work& work, Plan& plan) {
-  std::string why;
   if (work.meter) work.meter->enter("polish");
-  if (options.polish) {
-    const auto keep_if_passes = [&](Plan& shorter) {
-      if (passes_check(search, options, work, shorter, why)) {
-        plan = std::move(shorter);
-        return true;
-      }
-      plan.instants = shorter.instants;
-      return false;
-    };
-    Plan shorter = plan;
-    improve_by_run(search, limits, work, shorter);
-    polish(search, limits, work, shorter);
-    Plan shortest = shorter;
-    if (improve_by_words(search, limits, work, shortest)) {
-      if (keep_if_passes(shortest)) return;
-      shorter.instants = plan.instants;
+  std::string why;
+  for (Plan& one : from_cheapest(search, options, limits, work, plan)) {
+    one.instants = plan.instants;
+    if (passes_check(search, options, work, one, why)) {
+      plan = std::move(one);
+      return;
     }
-    if (keep_if_passes(shorter)) return;
+    plan.instants = one.instants;
   }
-  if (passes_check(search, options, work, plan, why)) return;
   set_undecided(plan, "the plan found fails its exact check: " + why);
 }
 

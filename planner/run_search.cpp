@@ -43,9 +43,8 @@ class RunSearch {
       laws_.reach = rings.reach;
     }
     for (const SearchContact& contact : search.contacts) {
-      laws_.contacts.push_back(rings.empty()
-                                   ? ellipsoid_law(contact.stick, search.margin)
-                                   : rings.contacts[contact.contact]);
+      laws_.contacts.push_back(rings.empty() ? ellipsoid_law(contact.stick, search.margin)
+                                             : rings.contacts[contact.contact]);
     }
   }
 
@@ -199,10 +198,7 @@ std::optional<Chain> search_runs(const SearchModel& search, const FlatState& sta
 void improve_by_run(const SearchModel& search, const Limits& limits, Work& work,
                     Plan& plan) {
   const Model& model = *search.model;
-  const bool rolls = std::any_of(
-      plan.pushes.begin(), plan.pushes.end(),
-      [](const PlannedPush& push) { return std::holds_alternative<Roll>(push.push); });
-  if (!search.exact_everywhere || rolls || plan.pushes.empty()) return;
+  if (!search.exact_everywhere || plan.rolls() || plan.pushes.empty()) return;
   const Goal goal = planar_goal(*model.scene.goal);
   account(model, plan);
   if (plan.cost <= kGoodEnough * guide_bound(model, plan.start, goal)) return;

@@ -17,11 +17,12 @@ bool segment_inside(const std::vector<Vec2>& outline, const Vec2& p,
 double distance_to_border(const std::vector<Vec2>& outline, const Vec2& p,
                           const Vec2& q) noexcept;
 
-/// Least and greatest `across`.p [m] of the outline where low <= `along`.p <= high; the
-/// two vectors are a unit basis. Infinite, low above high, where there is none. No heap.
 struct Extent {
-  double low, high;
+  double low, high;  ///< [m]
 };
+
+/// Least and greatest `across`.p of the outline where low <= `along`.p <= high [m]; the
+/// two vectors are a unit basis. Infinite, low above high, where there is none. No heap.
 Extent extent_across(const std::vector<Vec2>& outline, const Vec2& along,
                      const Vec2& across, double low, double high) noexcept;
 

@@ -259,7 +259,8 @@ double single_runs(const WordScene& scene, const WordQuestion& question, double 
   return runs.run();
 }
 
-/// Least travel to a piece of the goal set, whatever the contacts [m].
+/// Least travel to a piece of the goal set by so many placements, whatever their contacts
+/// [m].
 double least_way(const WordQuestion& question, const TurnPiece& piece, int placements) {
   if (!question.slabs || placements < kPlacementsOfSlabs) return question.straight;
   return std::max(
@@ -327,16 +328,13 @@ double word_bound(const WordScene& scene, const WordQuestion& question, double t
                   std::int64_t& nodes, const WordVisitor& visit) {
   double best = target;
   for (int placements = 1;; ++placements) {
-    double least = placements + question.straight / scene.L;
-    if (least >= best) return best;
-    if (question.slabs && placements >= kPlacementsOfSlabs) {
-      double way = (best - placements) * scene.L;
-      for (const TurnPiece& piece : goal_pieces(scene, question, way)) {
-        way = std::min(way, least_way(question, piece, placements));
-      }
-      least = placements + way / scene.L;
-      if (least >= best) return best;
+    if (placements + question.straight / scene.L >= best) return best;
+    double way = (best - placements) * scene.L;
+    for (const TurnPiece& piece : goal_pieces(scene, question, way)) {
+      way = std::min(way, least_way(question, piece, placements));
     }
+    const double least = placements + way / scene.L;
+    if (least >= best) return best;
     if (placements > kMostPlacements || nodes <= 0) return std::min(best, least);
     const double bound = placements == 1
                              ? single_runs(scene, question, best, nodes, visit)

@@ -15,7 +15,6 @@
 namespace prehensile {
 namespace {
 
-constexpr double kGapOfInterest = 1.1;
 constexpr double kWorthwhile = 0.99;  // of the cost of the plan, for another one
 constexpr double kPromising = 1.3;    // of it, for chains before they are polished
 constexpr std::size_t kMostKept = 6;  // sequences of contacts that are polished
@@ -123,17 +122,13 @@ class Candidates {
 bool improve_by_words(const SearchModel& search, const Limits& limits, Work& work,
                       Plan& plan) {
   const Model& model = *search.model;
-  const bool rolls = std::any_of(
-      plan.pushes.begin(), plan.pushes.end(),
-      [](const PlannedPush& push) { return std::holds_alternative<Roll>(push.push); });
-  if (!search.exact_everywhere || rolls || plan.pushes.empty() || limits.reached()) {
+  if (!search.exact_everywhere || plan.rolls() || plan.pushes.empty() ||
+      limits.reached()) {
     return false;
   }
   const Goal goal = planar_goal(goal_within_limits(model.scene));
   account(model, plan);
-  if (plan.cost <= kGapOfInterest * trivial_bound(model, plan.start, goal)) {
-    return false;
-  }
+  if (plan.cost <= kGapAsked * trivial_bound(model, plan.start, goal)) return false;
   const FlatState from = flat_state(plan.start);
   const GoalPlaces goals = goal_places(model, goal, from);
   Candidates candidates(search, from, goals, plan.cost, work);

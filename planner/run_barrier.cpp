@@ -8,7 +8,6 @@ namespace prehensile {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr int kPieces = kRunPieces;
 constexpr double kViolation = 1e3;  // cost of what is violated, per m
 constexpr int kMostSteps = 30;      // of Newton's method, for one weight
 
@@ -18,8 +17,8 @@ void RunBarrier::start() {
   x_.setZero();
   const double u = p_.goal_u;
   const double z = 0.5 * (p_.goal_z[0] + p_.goal_z[1]);
-  const double depth = p_.level[kPieces - 1];
-  for (int k = 0; k < kPieces; ++k) {
+  const double depth = p_.level[kRunPieces - 1];
+  for (int k = 0; k < kRunPieces; ++k) {
     const double share = p_.level[k] / depth;
     x_[3 * k] = share * u;
     x_[3 * k + 1] = share * z;
@@ -28,7 +27,7 @@ void RunBarrier::start() {
   x_[kRest] = 0.5 * p_.rest;
   x_[kRestTau] = p_.rest;
   const double worst = least_slack();
-  x_[kV] = std::max(0.0, -worst) * 1.5 + depth / kPieces;
+  x_[kV] = std::max(0.0, -worst) * 1.5 + depth / kRunPieces;
 }
 
 bool RunBarrier::centre(double weight) {
@@ -57,7 +56,7 @@ bool RunBarrier::centre(double weight) {
 
 double RunBarrier::objective() const {
   double sum = kViolation * x_[kV] + x_[kRestTau];
-  for (int k = 0; k < kPieces; ++k) sum += x_[3 * k + 2];
+  for (int k = 0; k < kRunPieces; ++k) sum += x_[3 * k + 2];
   return sum;
 }
 
@@ -177,7 +176,7 @@ bool RunBarrier::take_piece(int k) {
 }
 
 bool RunBarrier::take_rest() {
-  PieceMultipliers& y = y_.piece[kPieces];
+  PieceMultipliers& y = y_.piece[kRunPieces];
   const int depth = kRest, u = kRestU, z = kRestZ, tau = kRestTau;
   const std::array<double, 3> d{x_[depth], x_[u], x_[z]};
   const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
@@ -221,13 +220,13 @@ bool RunBarrier::take_rest_end(int set, int e, const std::array<double, 3>& d,
   const double path = std::hypot(d[0], d[1]);
   Gradient end;
   end.add(kRest, p_.rest_lever(set, e) + per_path * d[0] / path);
-  end.add(kRestU, -side * p_.h[kPieces] + per_path * d[1] / path);
+  end.add(kRestU, -side * p_.h[kRunPieces] + per_path * d[1] / path);
   end.add(kRestZ, side * ratio);
-  end.add(kRestTau, p_.slack_of(set, e, kPieces));
+  end.add(kRestTau, p_.slack_of(set, e, kRunPieces));
   end.add(kV, ratio);
-  const double slack = side * (ratio * d[2] - p_.h[kPieces] * d[1]) +
+  const double slack = side * (ratio * d[2] - p_.h[kRunPieces] * d[1]) +
                        p_.rest_lever(set, e) * d[0] + per_path * path +
-                       p_.slack_of(set, e, kPieces) * x_[kRestTau] + ratio * x_[kV];
+                       p_.slack_of(set, e, kRunPieces) * x_[kRestTau] + ratio * x_[kV];
   if (!take(slack, end, &y)) return false;
   add_curvature_of_length(-per_path * y, {d[0], d[1], 0.0}, {kRest, kRestU, -1},
                           {-1, -1, -1}, path);
@@ -270,7 +269,7 @@ bool RunBarrier::take_goal() {
 }
 
 bool RunBarrier::take_all() {
-  for (int k = 0; k < kPieces; ++k) {
+  for (int k = 0; k < kRunPieces; ++k) {
     if (!take_piece(k)) return false;
   }
   Gradient violation;
@@ -296,7 +295,7 @@ bool RunBarrier::assemble(double weight, double& value, bool derivatives) {
   if (derivatives) {
     gradient_.setZero();
     hessian_.set_zero();
-    for (int k = 0; k < kPieces; ++k) gradient_[3 * k + 2] = 1.0;
+    for (int k = 0; k < kRunPieces; ++k) gradient_[3 * k + 2] = 1.0;
     gradient_[kRestTau] = 1.0;
     gradient_[kV] = kViolation;
   }

@@ -27,7 +27,7 @@ class SlabTravel {
 
   /// Least travel [m] of plans that carry the finger axis from one place to one of others
   /// while the object turns by between two angles [rad]; 0 where the local law is not
-  /// known. Remembers what it found out about slabs, some tens of microseconds each.
+  /// known. Remembers what it found out about slabs, up to a tenth of a millisecond each.
   double least(const Vec2& from, const GoalArc& to, double turn_low, double turn_high);
 
  private:

@@ -43,7 +43,9 @@ class Cluster {
   }
   ~Cluster() {
     const int stopped = run("stop");
-    if (outcome_ == 0) EXPECT_EQ(stopped, 0) << story();
+    if (outcome_ == 0) {
+      EXPECT_EQ(stopped, 0) << story();
+    }
     ::unsetenv("SLURM_CONF");
   }
   Cluster(const Cluster&) = delete;

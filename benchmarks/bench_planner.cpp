@@ -24,6 +24,7 @@
 #include "planner/replay.h"
 #include "planner/share_interval.h"
 #include "primitives/uncertainty.h"
+#include "problems/pad_shapes.h"
 #include "problems/published_regrasps.h"
 #include "problems/random_regrasps.h"
 
@@ -39,7 +40,8 @@ struct Options {
   std::string plans = "robust";  // or nominal: without a margin; or weightless: that
                                  // and without gravity as well
   std::string theta = "angle";   // or number: the nearest winding is the only goal
-  std::string pads = "disc";     // or soft: points, with the torque radius of the discs
+  std::string pads = "disc";     // or soft: points; or one of kPadShapes; all of the
+                                 // torque radius of the discs
   int tolerance_um = 0;          // of goals; 0: that of the set
   const char* file = nullptr;
 };
@@ -127,8 +129,11 @@ std::vector<Problem> problems_of(const Options& options) {
   if (options.theta == "number") {
     for (Problem& problem : problems) keep_nearest_winding(problem.scene);
   }
-  if (options.pads == "soft") {
-    for (Problem& problem : problems) problem.scene = with_soft_points(problem.scene);
+  for (Problem& problem : problems) {
+    if (options.pads == "soft") problem.scene = with_soft_points(problem.scene);
+    if (is_pad_shape(options.pads)) {
+      problem.scene = with_pads(problem.scene, options.pads);
+    }
   }
   if (options.tolerance_um > 0) {
     for (Problem& problem : problems) {
@@ -269,7 +274,8 @@ bool read_options(int count, char** arguments, Options& options) {
          is_set(options.set) &&
          (options.plans == "robust" || options.plans == "nominal" ||
           options.plans == "weightless") &&
-         (options.pads == "disc" || options.pads == "soft") &&
+         (options.pads == "disc" || options.pads == "soft" ||
+          is_pad_shape(options.pads)) &&
          (options.theta == "angle" || options.theta == "number");
 }
 
@@ -291,7 +297,8 @@ int run(int count, char** arguments) {
     std::fputs(
         "usage: bench_planner [--quick] [--set published|ranges|wide|constructed]\n"
         "                     [--planner NAME] [--plans robust|nominal|weightless]\n"
-        "                     [--theta angle|number] [--pads disc|soft]\n"
+        "                     [--theta angle|number]\n"
+        "                     [--pads disc|soft|1:1|1:2|1:4|line|half_disc]\n"
         "                     [--tolerance-um N] [--problems N] [--seeds N] [--time-ms "
         "N] [-o FILE]\n",
         stderr);

@@ -36,7 +36,8 @@ class ConeTree {
   /// One extension; the index of a node at the goal, or -1.
   int grow() {
     const PushState target = drawn();
-    const int nearest = points_.nearest(place(target));
+    std::int64_t looks = 0;  // few beside the work of a step
+    const int nearest = points_.nearest(place(target), looks);
     const PushState from = nodes_[nearest].at;
     const PushState wanted = chance_of_goal_ ? member_next_to(from) : target;
     const std::optional<PushStep> step = steps_.extend(from, wanted, step_);

@@ -1,8 +1,14 @@
-/// Nearest neighbours among points that are added one by one: a k-d tree that is never
-/// balanced, which random points do not need. Internal to the planner.
+/// Nearest neighbours among points that are added one by one: a k-d tree (Bentley 1975)
+/// whose nodes know the box around all that is below them. Internal to the planner.
+///
+/// Points of a search tree come in rows, each a little farther than the one before, and
+/// are asked for from far off: a part that has become lopsided is built anew (Overmars
+/// 1983), so that the depth stays within twice the least, and boxes are passed by
+/// that hold nothing nearer. What is found does not depend on the shape of the tree.
 #pragma once
 
-#include <cmath>
+#include <array>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -15,69 +21,66 @@ class PointTree {
   int size() const { return static_cast<int>(nodes_.size()); }
 
   /// The index of the point is the number of points before it.
-  void add(const Vec3& point) {
-    const int index = size();
-    nodes_.push_back({point, {-1, -1}});
-    if (index == 0) return;
-    int at = 0;
-    for (int axis = 0;; axis = (axis + 1) % 3) {
-      int& child = nodes_[at].child[point[axis] < nodes_[at].point[axis] ? 0 : 1];
-      if (child < 0) {
-        child = index;
-        return;
-      }
-      at = child;
-    }
-  }
+  void add(const Vec3& point);
 
-  /// -1 without points.
-  int nearest(const Vec3& to) const {
+  /// The first of the nearest ones; -1 without points. Adds to `looks` how many points
+  /// were looked at.
+  int nearest(const Vec3& to, std::int64_t& looks) const {
     int best = -1;
     double least = std::numeric_limits<double>::infinity();
     visit(to, least, [&](int index, double distance) {
-      if (distance < least) {
-        least = distance;
-        best = index;
-      }
+      ++looks;
+      if (distance > least || (distance == least && best >= 0 && index > best)) return;
+      least = distance;
+      best = index;
     });
     return best;
   }
 
-  /// All within a radius, in an order that depends on the points alone.
-  void within(const Vec3& of, double radius, std::vector<int>& found) const {
-    found.clear();
-    visit(of, radius, [&](int index, double distance) {
-      if (distance <= radius) found.push_back(index);
-    });
-  }
+  /// All within a radius, in the order in which they were added.
+  void within(const Vec3& of, double radius, std::vector<int>& found) const;
 
  private:
   struct Node {
-    Vec3 point;
-    int child[2];
+    Vec3 point, low, high;  // and the box around all below, itself included
+    std::array<int, 2> child{-1, -1};
+    int axis = 0;   // that divides the children
+    int count = 1;  // of all below, itself included
   };
+
+  int count_of(int node) const { return node < 0 ? 0 : nodes_[node].count; }
+  void collect(int node, std::vector<int>& indices) const;
+  int build(int* begin, int* end);
+  double distance_to_box(int node, const Vec3& from) const {
+    const Node& box = nodes_[node];
+    return (from.cwiseMax(box.low).cwiseMin(box.high) - from).norm();
+  }
 
   /// Calls for every point that may lie within `radius`, which the call may lower.
   template <typename Call>
   void visit(const Vec3& of, const double& radius, Call&& call) const {
-    if (!nodes_.empty()) visit_from(0, 0, of, radius, call);
+    if (!nodes_.empty()) visit_from(root_, of, radius, call);
   }
 
   template <typename Call>
-  void visit_from(int at, int axis, const Vec3& of, const double& radius,
-                  Call& call) const {
+  void visit_from(int at, const Vec3& of, const double& radius, Call& call) const {
     const Node& node = nodes_[at];
     call(at, (node.point - of).norm());
-    const double side = of[axis] - node.point[axis];
-    const int near = side < 0.0 ? 0 : 1;
-    const int next = (axis + 1) % 3;
-    if (node.child[near] >= 0) visit_from(node.child[near], next, of, radius, call);
-    if (node.child[1 - near] >= 0 && std::abs(side) <= radius) {
-      visit_from(node.child[1 - near], next, of, radius, call);
+    std::array<double, 2> distance;
+    for (int side = 0; side < 2; ++side) {
+      distance[side] = node.child[side] < 0 ? std::numeric_limits<double>::infinity()
+                                            : distance_to_box(node.child[side], of);
+    }
+    const int near = distance[0] <= distance[1] ? 0 : 1;
+    for (const int side : {near, 1 - near}) {
+      if (node.child[side] >= 0 && distance[side] <= radius) {
+        visit_from(node.child[side], of, radius, call);
+      }
     }
   }
 
   std::vector<Node> nodes_;
+  int root_ = 0;
 };
 
 }  // namespace prehensile

@@ -8,6 +8,9 @@
 namespace prehensile {
 namespace {
 
+/// Points that a question for the nearest one looks at in the time of a stick test.
+constexpr std::int64_t kLooksPerTest = 20;
+
 /// A state and the push that joins it to its neighbour nearer to the root: the push that
 /// leads to it in the tree of the start, the one that leads on in that of the goals.
 struct Node {
@@ -31,7 +34,12 @@ class Tree {
     return size() - 1;
   }
 
-  int nearest(const PushState& to) const { return points_.nearest(place(to)); }
+  int nearest(const PushState& to, Work& work) const {
+    std::int64_t looks = 0;
+    const int node = points_.nearest(place(to), looks);
+    work.other += looks / kLooksPerTest;
+    return node;
+  }
 
   double distance(const PushState& a, const PushState& b) const {
     return (place(a) - place(b)).norm();
@@ -116,7 +124,7 @@ class TwoTrees {
   std::optional<Node> grown(const Tree& tree, Growth growth) {
     const bool along = growth == Growth::kAlongPushes;
     const PushState target = drawn();
-    const int nearest = tree.nearest(target);
+    const int nearest = tree.nearest(target, work_);
     const PushState& at = tree[nearest].at;
     std::optional<Node> best;
     for (int i = 0; i < draws_; ++i) {

@@ -104,7 +104,7 @@ TEST(Baselines, TheBudgetIsKeptToThePropagation) {
       Work work;
       const Plan plan =
           searched(model, {.planner = planner, .budget = budget}, Margin::none(), &work);
-      EXPECT_EQ(work.propagations, budget) << planner;
+      EXPECT_EQ(work.propagations + work.other, budget) << planner;
       EXPECT_EQ(plan.status, PlanStatus::kBudgetSpent);
       EXPECT_TRUE(plan.pushes.empty());
     }

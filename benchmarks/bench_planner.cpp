@@ -10,6 +10,7 @@
 /// run counts as solved if its plan replays.
 /// `--help` shows the options.
 #include <cstdio>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -40,8 +41,8 @@ struct Options {
   std::string plans = "robust";  // or nominal: without a margin; or weightless: that
                                  // and without gravity as well
   std::string theta = "angle";   // or number: the nearest winding is the only goal
-  std::string pads = "disc";     // or soft: points; or one of kPadShapes; all of the
-                                 // torque radius of the discs
+  std::string pads = "disc";     // or soft: points; or a name of pad_of_shape; all of
+                                 // the torque radius of the discs
   int tolerance_um = 0;          // of goals; 0: that of the set
   const char* file = nullptr;
 };
@@ -129,11 +130,11 @@ std::vector<Problem> problems_of(const Options& options) {
   if (options.theta == "number") {
     for (Problem& problem : problems) keep_nearest_winding(problem.scene);
   }
-  for (Problem& problem : problems) {
-    if (options.pads == "soft") problem.scene = with_soft_points(problem.scene);
-    if (is_pad_shape(options.pads)) {
-      problem.scene = with_pads(problem.scene, options.pads);
-    }
+  if (options.pads == "soft") {
+    for (Problem& problem : problems) problem.scene = with_soft_points(problem.scene);
+  }
+  if (const std::optional<Pad> shape = pad_of_shape(options.pads)) {
+    for (Problem& problem : problems) problem.scene = with_pads(problem.scene, *shape);
   }
   if (options.tolerance_um > 0) {
     for (Problem& problem : problems) {
@@ -275,7 +276,7 @@ bool read_options(int count, char** arguments, Options& options) {
          (options.plans == "robust" || options.plans == "nominal" ||
           options.plans == "weightless") &&
          (options.pads == "disc" || options.pads == "soft" ||
-          is_pad_shape(options.pads)) &&
+          pad_of_shape(options.pads)) &&
          (options.theta == "angle" || options.theta == "number");
 }
 

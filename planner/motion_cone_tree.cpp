@@ -22,6 +22,7 @@ class ConeTree {
  public:
   ConeTree(const BaselineQuestion& question, Work& work)
       : question_(question),
+        work_(work),
         steps_(question.search, question.goal, work),
         box_(box_around(steps_.model(), question.start, question.goal)),
         random_(question.seed),
@@ -36,8 +37,7 @@ class ConeTree {
   /// One extension; the index of a node at the goal, or -1.
   int grow() {
     const PushState target = drawn();
-    std::int64_t looks = 0;  // few beside the work of a step
-    const int nearest = points_.nearest(place(target), looks);
+    const int nearest = points_.nearest(place(target), work_);
     const PushState from = nodes_[nearest].at;
     const PushState wanted = chance_of_goal_ ? member_next_to(from) : target;
     const std::optional<PushStep> step = steps_.extend(from, wanted, step_);
@@ -146,6 +146,7 @@ class ConeTree {
   }
 
   const BaselineQuestion& question_;
+  Work& work_;
   PushSteps steps_;
   FlatBox box_;
   RandomStream random_;

@@ -10,6 +10,8 @@ constexpr double kMostOnOneSide = 0.7;
 
 constexpr int kFew = 8;  // points that may lie in a row
 
+constexpr std::int64_t kLooksPerTest = 20;  // points looked at in the time of one
+
 }  // namespace
 
 void PointTree::add(const Vec3& point) {
@@ -70,6 +72,21 @@ int PointTree::build(int* begin, int* end) {
   node.count = static_cast<int>(end - begin);
   node.child = child;
   return *middle;
+}
+
+int PointTree::nearest(const Vec3& to, Work& work) const {
+  int best = -1;
+  double least = std::numeric_limits<double>::infinity();
+  std::int64_t looks = 0;
+  visit(to, least, [&](int index, double distance) {
+    ++looks;
+    if (distance < least || (distance == least && index < best)) {
+      least = distance;
+      best = index;
+    }
+  });
+  work.other += looks / kLooksPerTest;
+  return best;
 }
 
 void PointTree::within(const Vec3& of, double radius, std::vector<int>& found) const {

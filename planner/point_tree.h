@@ -8,11 +8,10 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <limits>
 #include <vector>
 
-#include "scene/frames.h"
+#include "planner/steering.h"
 
 namespace prehensile {
 
@@ -23,19 +22,8 @@ class PointTree {
   /// The index of the point is the number of points before it.
   void add(const Vec3& point);
 
-  /// The first of the nearest ones; -1 without points. Adds to `looks` how many points
-  /// were looked at.
-  int nearest(const Vec3& to, std::int64_t& looks) const {
-    int best = -1;
-    double least = std::numeric_limits<double>::infinity();
-    visit(to, least, [&](int index, double distance) {
-      ++looks;
-      if (distance > least || (distance == least && best >= 0 && index > best)) return;
-      least = distance;
-      best = index;
-    });
-    return best;
-  }
+  /// The first of the nearest ones; -1 without points. What is looked at counts as work.
+  int nearest(const Vec3& to, Work& work) const;
 
   /// All within a radius, in the order in which they were added.
   void within(const Vec3& of, double radius, std::vector<int>& found) const;

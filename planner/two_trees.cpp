@@ -8,9 +8,6 @@
 namespace prehensile {
 namespace {
 
-/// Points that a question for the nearest one looks at in the time of a stick test.
-constexpr std::int64_t kLooksPerTest = 20;
-
 /// A state and the push that joins it to its neighbour nearer to the root: the push that
 /// leads to it in the tree of the start, the one that leads on in that of the goals.
 struct Node {
@@ -35,10 +32,7 @@ class Tree {
   }
 
   int nearest(const PushState& to, Work& work) const {
-    std::int64_t looks = 0;
-    const int node = points_.nearest(place(to), looks);
-    work.other += looks / kLooksPerTest;
-    return node;
+    return points_.nearest(place(to), work);
   }
 
   double distance(const PushState& a, const PushState& b) const {

@@ -1,55 +1,42 @@
 #include "problems/pad_shapes.h"
 
-#include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numbers>
 
 #include "mechanics/model.h"
+#include "scene/outline.h"
 
 namespace prehensile {
 namespace {
 
-/// Of radius 1, open towards -x.
 PolygonPad half_disc() {
   constexpr int kSides = 24;
-  // Of a fan of isosceles triangles: twice the area and the first moment of each.
-  constexpr double kStep = std::numbers::pi / kSides;
-  const double cosine = std::cos(0.5 * kStep);
-  double area = 0.0, moment = 0.0;
   PolygonPad pad;
   for (int i = 0; i <= kSides; ++i) {
-    const double angle = -0.5 * std::numbers::pi + i * kStep;
+    const double angle = std::numbers::pi * (static_cast<double>(i) / kSides - 0.5);
     pad.outline.push_back({std::cos(angle), std::sin(angle)});
-    if (i == kSides) break;
-    area += std::sin(kStep);
-    moment += std::sin(kStep) * 2.0 / 3.0 * cosine * std::cos(angle + 0.5 * kStep);
   }
-  for (Vec2& v : pad.outline) v.x() -= moment / area;
+  const Vec2 centroid = properties_of(pad.outline).centroid;
+  for (Vec2& v : pad.outline) v -= centroid;
   return pad;
-}
-
-Pad of_size_one(std::string_view shape) {
-  if (shape == "1:1") return RectanglePad{{1.0, 1.0}};
-  if (shape == "1:2") return RectanglePad{{0.5, 1.0}};
-  if (shape == "1:4") return RectanglePad{{0.25, 1.0}};
-  if (shape == "line") return LinePad{1.0, 0.5 * std::numbers::pi};
-  return half_disc();
 }
 
 }  // namespace
 
-bool is_pad_shape(std::string_view shape) {
-  return std::find(std::begin(kPadShapes), std::end(kPadShapes), shape) !=
-         std::end(kPadShapes);
+std::optional<Pad> pad_of_shape(std::string_view name) {
+  if (name == "1:1") return RectanglePad{{1.0, 1.0}};
+  if (name == "1:2") return RectanglePad{{0.5, 1.0}};
+  if (name == "1:4") return RectanglePad{{0.25, 1.0}};
+  if (name == "line") return LinePad{1.0, 0.5 * std::numbers::pi};
+  if (name == "half_disc") return half_disc();
+  return std::nullopt;
 }
 
-Scene with_pads(Scene scene, std::string_view shape) {
+Scene with_pads(Scene scene, const Pad& shape) {
   const double torque_radius = prepare(scene).c;
   // Near the size in question, for scenes bound the size of pads.
-  scene.gripper.pad = resized(of_size_one(shape), 2.0 * torque_radius);
-  const double factor = torque_radius / prepare(scene).c;
-  scene.gripper.pad = resized(scene.gripper.pad, factor);
+  scene.gripper.pad = resized(shape, 2.0 * torque_radius);
+  scene.gripper.pad = resized(scene.gripper.pad, torque_radius / prepare(scene).c);
   return scene;
 }
 

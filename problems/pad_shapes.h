@@ -1,22 +1,27 @@
 /// The pads of a scene in another shape: what the shape alone changes.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string_view>
 
 #include "scene/scene.h"
 
 namespace prehensile {
 
-/// What with_pads knows: "1:1", "1:2", "1:4" (rectangles, their long side along y of H),
-/// "line" (along y of H) and "half_disc" (a polygon; its centre of pressure, not that of
-/// its arc, is on the finger axis).
-inline constexpr std::string_view kPadShapes[] = {"1:1", "1:2", "1:4", "line",
-                                                  "half_disc"};
+/// "1:1", "1:2" and "1:4" are rectangles, their long side along y of H; "line" lies along
+/// it; "half_disc" is a polygon, its straight side towards -x, its centre of pressure on
+/// the finger axis.
+inline constexpr std::array<std::string_view, 5> kPadShapes = {"1:1", "1:2", "1:4",
+                                                               "line", "half_disc"};
 
-bool is_pad_shape(std::string_view shape);
+/// The pad of one of kPadShapes, 1 m long (the disc: of radius 1 m); nothing for another
+/// name.
+std::optional<Pad> pad_of_shape(std::string_view name);
 
-/// The scene with pads of one of kPadShapes, as large as gives them the torque radius
-/// that its own have (> 0): turning on the spot costs the same.
-Scene with_pads(Scene scene, std::string_view shape);
+/// The scene with pads of this shape, as large as gives them the torque radius [m] that
+/// its own have, which must be positive: turning on the spot costs the same. Over a
+/// polygon to 1e-5 of it, its quadrature not being quite the same at each size.
+Scene with_pads(Scene scene, const Pad& shape);
 
 }  // namespace prehensile

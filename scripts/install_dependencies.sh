@@ -41,11 +41,11 @@ case "${1:-}" in
 esac
 
 # The judge of GLB files, and what makes the viewer's bundle, at the versions of the lock file.
-# Their tests are skipped where there is no network.
 install_packages_of_node() {
   if [ "$packages_of_node" = no ] || [ -d viewer/node_modules/gltf-validator ]; then return; fi
   npm --prefix viewer ci --ignore-scripts --no-audit --no-fund || {
-    echo "note: npm could not install viewer/package-lock.json: its tests are skipped" >&2
+    echo "error: npm could not install viewer/package-lock.json, which tests of label full need" >&2
+    exit 1
   }
 }
 

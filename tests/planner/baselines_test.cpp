@@ -105,6 +105,9 @@ TEST(Baselines, TheBudgetIsKeptToThePropagation) {
       const Plan plan =
           searched(model, {.planner = planner, .budget = budget}, Margin::none(), &work);
       EXPECT_EQ(work.propagations + work.other, budget) << planner;
+      if (planner == kShooting) {
+        EXPECT_EQ(work.other, 0);
+      }
       EXPECT_EQ(plan.status, PlanStatus::kBudgetSpent);
       EXPECT_TRUE(plan.pushes.empty());
     }

@@ -29,6 +29,19 @@ namespace {
 /// Of a time limit, for plans with a margin; the rest is for those without.
 constexpr double kShareOfTime = 0.7;
 
+/// Of the work budget, for plans that survive the usual margin, but no less than
+/// kLeastWork: where there is one it is found soon, and where there is none a nominal
+/// plan need not wait.
+constexpr std::int64_t kShareOfWork = 10;
+constexpr std::int64_t kLeastWork = 200'000;
+
+/// Work until a nominal plan is looked for. A box that the user states, and the search
+/// for cheaper plans, have the whole budget.
+std::int64_t work_with_margin(const PlanOptions& options) {
+  if (options.promise != Promise::kMargin || options.improve) return options.budget;
+  return std::min(options.budget, std::max(options.budget / kShareOfWork, kLeastWork));
+}
+
 Plan search_plan(const SearchModel& search, const PlanOptions& options, Work& work) {
   const Scene& scene = search.model->scene;
   const Goal goal = goal_within_limits(scene);
@@ -222,7 +235,10 @@ Plan search_with_and_without(const Model& model, const PlanOptions& options, Wor
   const bool nominal = margin.is_none();
   const bool falls_back = options.nominal_if_needed && !nominal;
   PlanOptions robust = options;
-  if (falls_back) robust.time_limit *= kShareOfTime;
+  if (falls_back) {
+    robust.time_limit *= kShareOfTime;
+    work.budget = work.done() + work_with_margin(options);
+  }
   Found found;
   Plan plan = search_and_check(model, robust, margin, work, found);
   plan.promise = nominal ? Promise::kNominal : options.promise;
@@ -239,7 +255,7 @@ Plan search_with_and_without(const Model& model, const PlanOptions& options, Wor
   if (!falls_back || proof.kind != Proof::Kind::kNone) return plan;
   PlanOptions rest = options;
   rest.time_limit *= 1.0 - kShareOfTime;
-  work.budget += work.done();
+  work.budget = work.done() + options.budget;
   Plan without = search_and_check(model, rest, Margin::none(), work, found);
   without.instants += plan.instants;
   if (!without.usable()) {
@@ -271,7 +287,10 @@ Plan search_on(const Model& model, const PlanOptions& options, Work& work) {
     if (rest.time_limit <= 0.0) return plan;
   }
   Plan better = search_with_and_without(model, rest, work);
-  if (!better.usable() || better.promise != plan.promise) return plan;
+  if (!better.usable()) return plan;
+  if (better.promise != plan.promise) {
+    return better.promise == Promise::kNominalOnly ? plan : better;
+  }
   account(model, plan);
   account(model, better);
   return better.cost < plan.cost ? better : plan;

@@ -1,0 +1,43 @@
+# Tests that take half a minute and more under the sanitizers, for their many random cases: about
+# numbers, over code that others of the same file run as well. Run without sanitizers only.
+set(costly_when_sanitized
+  Advice.IsTheSameEveryTime
+  Advice.NamesOnlyChangesThatWork
+  BlockedHand.NothingBeginsOrEndsThere
+  MeetEnd.DividesWhatOnePushDoesNotFollow
+  OmplDeterminism.SameSeedSamePlanInFreshProcesses
+  OmplDeterminism.SeedsMatterToRandomPlannersOnly
+  OmplLog.HasAsManyFieldsAsItDeclares
+  OmplStockPlanners.BlindControlsNeedMoreWorkThanSteering
+  Planner.PlansOfManyTurnsReplay
+  Planner.SolvesConstructedTees
+  PointMargin.PlansWithAMarginSurviveTheBox
+  ProblemList.ProblemsAreSoundAndTheSameEachTime
+  Proofs.GoalBesideTheMiddleLineOfACan
+  PushCalibration.RecoversWhatMadeThePushes
+  PushEstimate.IsHonestOverPads
+  RobustPlan.SaysSoWhereOnlyANominalPlanExists
+  RunSuite.JobsDoNotChangeResults
+  RunSuite.OneRunAgainIsTheSameRow
+  RunSuite.ShardsMakeTheWhole
+  SpaceCone.EdgesAreWhereInstantsChange
+  SpaceCone.HasWhatADenseScanFinds
+  SpaceCone.WithoutMembersRobustIsNominal
+  SpaceGrip.PushesInSpaceStickWithinTheForcesAndNotBeyond
+  SpaceGrip.TheRangeOfAWholePushIsThatOfItsProfile
+  SpacePlace.LeastForceLoosensTheGrip
+  SpacePlace.RobustSlackIsThatOfTheWorstMember
+  SpacePlace.SlackAtThePlaceFoundIsThatOfTheAnswer
+  SpatialPush.UsesNoHeapWithoutATrace
+  SpatialPushEstimate.FollowsOneMotionToItsEnd
+  SpatialPushEstimate.IsHonest
+  SpatialPushLaw.EqualsThePadPlaneWhereTheSceneIsSymmetric
+  SpatialPushLaw.MirrorImagesMoveAsMirrorImages
+  SpatialPushLaw.PushInTwoPartsEndsWhereTheWholePushEnds
+  SpatialPushLaw.RetractingThePusherLeavesAGraspThatHoldsGravity
+  SpatialPushLaw.StickingPushesAreTheRigidMotionOfThePusher
+  SpatialPushLaw.UpsideDownMovesAlike
+  SpatialSensitivity.HoldsOnOneSideAtAChangeOfMode
+  Steering.MovesOfOtherPadsSurviveADenseCheck
+  WalkSearch.FindsLoopsWhereThePadsAreClipped
+  WalkSearch.ReachesTheGoalByPushesThatStick)

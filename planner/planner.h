@@ -27,7 +27,8 @@ struct PlanOptions {
   /// Plan for this box, doubled once if the exact check fails; unset: for usual_box().
   std::optional<Margin> margin;
   Promise promise = Promise::kMargin;  ///< what the margin is, for the plan's record
-  /// Where no plan survives the margin, look for one that has none and say so.
+  /// Where no plan survives the margin, look for one that has none and say so. The usual
+  /// margin then has a tenth of the budget, or 200,000 if that is more.
   bool nominal_if_needed = true;
   bool improve = false;  ///< search on, with the whole budget, after the first plan;
                          ///< of the others, those that can

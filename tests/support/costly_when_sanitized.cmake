@@ -3,6 +3,7 @@
 set(costly_when_sanitized
   Advice.IsTheSameEveryTime
   Advice.NamesOnlyChangesThatWork
+  Advice.SaysWhatANominalPlanLacks
   BlockedHand.NothingBeginsOrEndsThere
   MeetEnd.DividesWhatOnePushDoesNotFollow
   OmplDeterminism.SameSeedSamePlanInFreshProcesses
@@ -20,6 +21,7 @@ set(costly_when_sanitized
   RunSuite.JobsDoNotChangeResults
   RunSuite.OneRunAgainIsTheSameRow
   RunSuite.ShardsMakeTheWhole
+  RunSuite.StopsAndGoesOn
   SpaceCone.EdgesAreWhereInstantsChange
   SpaceCone.HasWhatADenseScanFinds
   SpaceCone.WithoutMembersRobustIsNominal
@@ -40,4 +42,5 @@ set(costly_when_sanitized
   SpatialSensitivity.HoldsOnOneSideAtAChangeOfMode
   Steering.MovesOfOtherPadsSurviveADenseCheck
   WalkSearch.FindsLoopsWhereThePadsAreClipped
+  WalkSearch.KeepsToLimitsOfTheAngle
   WalkSearch.ReachesTheGoalByPushesThatStick)

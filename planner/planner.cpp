@@ -30,10 +30,10 @@ namespace {
 constexpr double kShareOfTime = 0.7;
 
 /// Of the work budget, for plans that survive the usual margin, but no less than
-/// kLeastWork: where there is one it is found soon, and where there is none a nominal
+/// kLeastWork: where there is one it is found by then, and where there is none a nominal
 /// plan need not wait.
-constexpr std::int64_t kShareOfWork = 10;
-constexpr std::int64_t kLeastWork = 200'000;
+constexpr std::int64_t kShareOfWork = 4;
+constexpr std::int64_t kLeastWork = 5'000'000;
 
 /// Work until a nominal plan is looked for. A box that the user states, and the search
 /// for cheaper plans, have the whole budget.

@@ -28,7 +28,7 @@ struct PlanOptions {
   std::optional<Margin> margin;
   Promise promise = Promise::kMargin;  ///< what the margin is, for the plan's record
   /// Where no plan survives the margin, look for one that has none and say so. The usual
-  /// margin then has a tenth of the budget, or 200,000 if that is more.
+  /// margin then has a quarter of the budget, or five million if that is more.
   bool nominal_if_needed = true;
   bool improve = false;  ///< search on, with the whole budget, after the first plan;
                          ///< of the others, those that can

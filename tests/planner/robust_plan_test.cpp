@@ -159,13 +159,13 @@ std::int64_t work_of_nominal_only(Promise promise, std::int64_t budget) {
   return plan.stick_tests + plan.propagations;
 }
 
-/// A tenth of the budget goes into the usual margin; a box that was stated has it all.
+/// Five million go into the usual margin; a box that was stated has the whole budget.
 TEST(RobustPlan, ANominalPlanNeedNotWaitForTheWholeBudget) {
-  constexpr std::int64_t kBudget = 4'000'000;
+  constexpr std::int64_t kBudget = 8'000'000;
   const std::int64_t usual = work_of_nominal_only(Promise::kMargin, kBudget);
   const std::int64_t stated = work_of_nominal_only(Promise::kScene, kBudget);
-  EXPECT_LE(usual, kBudget / 10 + kBudget / 100);
-  EXPECT_GT(stated, 3 * usual);
+  EXPECT_LE(usual, 5'100'000);
+  EXPECT_GT(stated, 7'000'000);
 }
 
 TEST(PlanTrial, TheMiddleOfTheBoxIsThePlan) {

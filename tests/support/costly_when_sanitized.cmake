@@ -17,6 +17,7 @@ set(costly_when_sanitized
   Proofs.GoalBesideTheMiddleLineOfACan
   PushCalibration.RecoversWhatMadeThePushes
   PushEstimate.IsHonestOverPads
+  RobustPlan.ANominalPlanNeedNotWaitForTheWholeBudget
   RobustPlan.SaysSoWhereOnlyANominalPlanExists
   RunSuite.JobsDoNotChangeResults
   RunSuite.OneRunAgainIsTheSameRow

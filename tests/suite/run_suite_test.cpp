@@ -91,7 +91,7 @@ TEST(RunSuite, BadPlannersAreRows) {
   std::string text =
       "version: 1\nname: bad\nfamilies:\n"
       "  - {name: published, published: {object: square, count: 2}}\n"
-      "limits: {cpu_time: 0.3, wall_time: 60, memory_MB: 300}\nplanners:\n";
+      "limits: {cpu_time: 2, wall_time: 60, memory_MB: 300}\nplanners:\n";
   std::map<std::string, RunStatus> wanted = {
       {"segfaults", RunStatus::kCrashed}, {"never_returns", RunStatus::kTimeout},
       {"throws", RunStatus::kFault},      {"lies", RunStatus::kRefuted},

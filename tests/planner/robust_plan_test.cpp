@@ -147,25 +147,25 @@ TEST(RobustPlan, SaysSoWhereOnlyANominalPlanExists) {
   EXPECT_GT(nominal_only, 0);
 }
 
-/// Work until there is a plan, of a regrasp that no plan with this margin makes.
-std::int64_t work_of_nominal_only(Promise promise, std::int64_t budget) {
-  const Model model = prepare(published_tee(3));
+/// Work told of while a plan with the margin is looked for, of a regrasp that has none.
+std::int64_t work_with_margin(Promise promise) {
+  const Model model =
+      prepare(random_among_walls(false, RegraspRange::kWide, false, 1, 13));
+  std::int64_t most = 0;
   PlanOptions options;
-  options.budget = budget;
-  options.margin = Margin{.grasp = 0.02, .tilt = 0.5};
+  options.budget = 10'000'000;
   options.promise = promise;
-  const Plan plan = plan_regrasp(model, options);
-  EXPECT_EQ(plan.promise, Promise::kNominalOnly);
-  return plan.stick_tests + plan.propagations;
+  options.progress = [&most](const SearchProgress& progress) {
+    if (progress.stage == "search") most = std::max(most, progress.tests);
+  };
+  EXPECT_EQ(plan_regrasp(model, options).promise, Promise::kNominalOnly);
+  return most;
 }
 
 /// Five million go into the usual margin; a box that was stated has the whole budget.
 TEST(RobustPlan, ANominalPlanNeedNotWaitForTheWholeBudget) {
-  constexpr std::int64_t kBudget = 8'000'000;
-  const std::int64_t usual = work_of_nominal_only(Promise::kMargin, kBudget);
-  const std::int64_t stated = work_of_nominal_only(Promise::kScene, kBudget);
-  EXPECT_LE(usual, 5'100'000);
-  EXPECT_GT(stated, 7'000'000);
+  EXPECT_LT(work_with_margin(Promise::kMargin), 5'100'000);
+  EXPECT_GT(work_with_margin(Promise::kScene), 7'000'000);
 }
 
 TEST(PlanTrial, TheMiddleOfTheBoxIsThePlan) {

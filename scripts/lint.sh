@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # Format and lint: clang-format on every source, clang-tidy with the profile in .clang-tidy on every
 # unit of the preset `tidy`, which has no precompiled headers: each source includes what it uses.
-# Without --all less is asked, for a third of the time: the tests are left out, and so are the
-# checks that cost most (paths through functions, and two that look at every name in every header)
-# and those whose findings the compiler mostly warns of, too.
+# Without --all less is asked, for a third of the time: tests and programs are left out, and so are
+# the checks that cost most (paths through functions, and two that look at every name in every
+# header) and those whose findings the compiler mostly warns of, too.
 set -euo pipefail
-with_tests=no
+libraries_only=yes
 left_out=(
   'clang-analyzer-*' bugprone-reserved-identifier bugprone-stringview-nullptr
   bugprone-assert-side-effect bugprone-infinite-loop bugprone-misplaced-widening-cast
@@ -16,7 +16,7 @@ left_out=(
 )
 checks=("--checks=$(printf -- '-%s,' "${left_out[@]}")")
 if [ "${1:-}" = --all ]; then
-  with_tests=yes
+  libraries_only=no
   checks=()
 fi
 cd "$(dirname "$0")/.."
@@ -34,7 +34,8 @@ cmake --preset tidy >/dev/null
 units=()
 for unit in "${sources[@]}"; do
   case "$unit" in
-    tests/*.cpp) if [ $with_tests = no ]; then continue; fi ;;
+    tests/*.cpp | apps/*.cpp | benchmarks/*.cpp | examples/*.cpp)
+      if [ $libraries_only = yes ]; then continue; fi ;;
     *.cpp) ;;
     *) continue ;;
   esac

@@ -12,7 +12,10 @@ std::string text(double value) {
 
 std::string text(const std::vector<double>& values) {
   std::string all;
-  for (const double value : values) all += (all.empty() ? "" : " ") + text(value);
+  for (const double value : values) {
+    if (!all.empty()) all += ' ';
+    all += text(value);
+  }
   return all;
 }
 

@@ -29,17 +29,18 @@ namespace {
 /// Of a time limit, for plans with a margin; the rest is for those without.
 constexpr double kShareOfTime = 0.7;
 
-/// Of the work budget, for plans that survive the usual margin, but no less than
-/// kLeastWork: where there is one it is found by then, and where there is none a nominal
-/// plan need not wait.
-constexpr std::int64_t kShareOfWork = 4;
+/// Of the work budget, for plans that survive the usual margin, and the least it is:
+/// where none is found by then a nominal plan need not wait.
+constexpr double kShareOfWork = 0.25;
 constexpr std::int64_t kLeastWork = 5'000'000;
 
 /// Work until a nominal plan is looked for. A box that the user states, and the search
 /// for cheaper plans, have the whole budget.
 std::int64_t work_with_margin(const PlanOptions& options) {
   if (options.promise != Promise::kMargin || options.improve) return options.budget;
-  return std::min(options.budget, std::max(options.budget / kShareOfWork, kLeastWork));
+  const auto share =
+      static_cast<std::int64_t>(kShareOfWork * static_cast<double>(options.budget));
+  return std::min(options.budget, std::max(share, kLeastWork));
 }
 
 Plan search_plan(const SearchModel& search, const PlanOptions& options, Work& work) {

@@ -147,7 +147,8 @@ TEST(RobustPlan, SaysSoWhereOnlyANominalPlanExists) {
   EXPECT_GT(nominal_only, 0);
 }
 
-/// Work told of while a plan with the margin is looked for, of a regrasp that has none.
+/// Work told of while a plan with the margin is looked for, of a regrasp for which none
+/// is found.
 std::int64_t work_with_margin(Promise promise) {
   const Model model =
       prepare(random_among_walls(false, RegraspRange::kWide, false, 1, 13));

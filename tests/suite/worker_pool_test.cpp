@@ -34,7 +34,7 @@ Ending end_of(const ProcessLimits& limits, const std::string& script) {
 }
 
 /// Not to be optimised away.
-volatile int sink = 0;
+volatile unsigned sink = 0;  // counts for ever without an overflow
 
 TEST(WorkerPool, BringsBackWhatTheWorkReturns) {
   const std::string large(300'000, 'x');  // more than a pipe holds

@@ -21,6 +21,10 @@ constexpr int kDescents = 4;
 constexpr int kSpread = 48;
 constexpr int kDescentSteps = 60;
 
+/// Over the friction force: gravity that changes no slack by a digit counts as none. Its
+/// square may be no number any more.
+constexpr double kNoGravity = 1e-30;
+
 /// D and its derivatives at a twist, in certificate units.
 struct Dissipated {
   double power = 0.0;
@@ -31,7 +35,9 @@ struct Dissipated {
 class SlackSearch {
  public:
   SlackSearch(const PlanarGrasp& grasp, const CertificateUnits& units)
-      : grasp_(grasp), units_(units), w_g_(units.scaled_wrench(grasp.w_g)) {}
+      : grasp_(grasp), units_(units), w_g_(units.scaled_wrench(grasp.w_g)) {
+    if (w_g_.norm() < kNoGravity) w_g_.setZero();
+  }
 
   Vec3 least(double* slack) {
     // Even spread over half the sphere (golden angle).

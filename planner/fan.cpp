@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kDirections = 72;
 constexpr double kMostKappa = 30.0;  // beyond it a move is nearly a rotation on the spot
-constexpr double kShortStep = 1e-4;  // [m] over which a move must stick
+constexpr double kShortStep = 1e-3;  // over L: a move must stick so far
 constexpr int kMostPivots = 200;
 constexpr double kArtificialCost = 1e4;
 constexpr double kReducedCostFloor = 1e-9;
@@ -129,6 +129,7 @@ class Basis {
 
 std::vector<Generator> fan_at(const SearchModel& search, const PadEnvelope& envelope,
                               const Vec2& p_OF, double depth, Work& work) {
+  const double step = kShortStep * search.model->L;
   std::vector<Generator> fan;
   for (std::size_t i = 0; i < search.contacts.size(); ++i) {
     const StickContact& stick = search.contacts[i].stick;
@@ -140,7 +141,7 @@ std::vector<Generator> fan_at(const SearchModel& search, const PadEnvelope& enve
       const bool inside = std::abs(angle) < cone;
       const Vec2 e = rotated(inside ? angle * (1.0 - depth) : angle, stick.n);
       ++work.stick_tests;
-      const KappaSet kappas = envelope.kappas(stick, p_OF, p_OF - kShortStep * e);
+      const KappaSet kappas = envelope.kappas(stick, p_OF, p_OF - step * e);
       for (int j = 0; j < kappas.count; ++j) {
         add_interval(static_cast<int>(i), e, kappas.intervals[j], depth, fan);
       }

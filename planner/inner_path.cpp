@@ -5,11 +5,13 @@
 #include <limits>
 
 #include "planner/segment.h"
+#include "scene/outline.h"
 
 namespace prehensile {
 namespace {
 
-constexpr double kAway = 1e-3;  // [m] of way-points from the corner that they turn about
+/// Of way-points from the corner that they turn about, over the outline's longer side.
+constexpr double kAway = 0.01;
 
 double turn_at(const std::vector<Vec2>& outline, std::size_t i) {
   const std::size_t n = outline.size();
@@ -29,6 +31,7 @@ double signed_area(const std::vector<Vec2>& outline) {
 /// Points just inside the reflex corners, where a shortest path may turn.
 std::vector<Vec2> turning_points(const std::vector<Vec2>& outline) {
   const double side = signed_area(outline) > 0.0 ? 1.0 : -1.0;
+  const double away = kAway * longer_side(outline);
   const std::size_t n = outline.size();
   std::vector<Vec2> points;
   for (std::size_t i = 0; i < n; ++i) {
@@ -37,7 +40,7 @@ std::vector<Vec2> turning_points(const std::vector<Vec2>& outline) {
     const Vec2 to_next = (outline[(i + 1) % n] - outline[i]).normalized();
     const Vec2 outwards = to_last + to_next;
     if (outwards.norm() < 1e-9) continue;
-    points.push_back(outline[i] - kAway * outwards.normalized());
+    points.push_back(outline[i] - away * outwards.normalized());
   }
   return points;
 }

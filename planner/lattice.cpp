@@ -77,8 +77,8 @@ std::vector<Vec2> lattice_nodes(const SearchModel& search, int wanted) {
 
 void add_local_nodes(const SearchModel& search, const Vec2& a, const Vec2& b,
                      int per_side, std::vector<Vec2>& nodes) {
-  constexpr double kLeastWidth = 0.02;  // [m]
-  const double width = std::max(kLeastWidth, 2.0 * (b - a).norm());
+  constexpr double kLeastWidth = 0.2;  // of the object's longer side
+  const double width = std::max(kLeastWidth * search.model->L, 2.0 * (b - a).norm());
   const Vec2 first = 0.5 * (a + b) - Vec2::Constant(0.5 * width);
   const double step = width / (per_side - 1);
   for (int i = 0; i < per_side; ++i) {

@@ -147,9 +147,13 @@ Plan attempt(const Model& model, const PlanOptions& options, const Clearance& cl
   }
   if (search.contacts.empty()) {
     Plan plan = blank_plan(search, model.scene.start, options);
-    plan.status = PlanStatus::kUnsupported;
-    plan.message =
-        "nothing can be pushed: the pads have no friction, no grip or no torque";
+    if (model.F > 0.0 && model.c > 0.0) {
+      set_undecided(plan, "the margin leaves no pusher a place on its face");
+    } else {
+      plan.status = PlanStatus::kUnsupported;
+      plan.message =
+          "nothing can be pushed: the pads have no friction, no grip or no torque";
+    }
     return plan;
   }
   const Limits limits(options, work);

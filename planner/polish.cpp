@@ -11,7 +11,7 @@ namespace prehensile {
 namespace {
 
 constexpr int kEvaluations = 600;
-constexpr double kFirstStep = 3e-3;      // [m]
+constexpr double kFirstStep = 0.03;      // over L
 constexpr double kInfeasible = 1e6;      // cost of way-points that no chain passes
 constexpr double kWorthwhile = 1e-4;     // relative gain below which the plan stays
 constexpr std::size_t kMostPushes = 12;  // beyond it sub-plex gains too little
@@ -69,7 +69,8 @@ bool shorten(const Steering& steering, const Limits& limits, Work& work,
   };
   const NlpResult result =
       minimise_nlopt(program, LocalMethod::kSubplex,
-                     {.tolerance = 1e-6, .max_evaluations = kEvaluations}, kFirstStep);
+                     {.tolerance = 1e-6, .max_evaluations = kEvaluations},
+                     kFirstStep * steering.search.model->L);
   if (result.x.size() != stretch.way_points.size()) return false;
   return chain_of(steering, stretch, result.x, work, chain) &&
          chain.cost < before * (1.0 - kWorthwhile) &&

@@ -235,6 +235,16 @@ TEST(GravitySlack, OfADiscIsTheDistanceFromItsLimitSurface) {
   }
 }
 
+TEST(GravitySlack, GravityTooSmallForItsSquareIsNone) {
+  PlanarGrasp grasp = testing::disc_grasp(96, 0.01, 20.0);
+  const double without = gravity_slack(grasp);
+  EXPECT_GT(without, 0.1);
+  for (const double weight : {1e-30, 1e-160, 1e-200, 1e-310}) {
+    grasp.w_g = {0.0, -weight, 0.0};
+    EXPECT_NEAR(gravity_slack(grasp), without, 1e-12) << weight;
+  }
+}
+
 TEST(GravitySlack, HasTheSignOfTheBestOfManyTwists) {
   for (int i = 0; i < 1500; ++i) {
     RandomInstant q = random_instant(24, i, {.points_per_pad = i % 2 ? 2 : 16});

@@ -1,0 +1,107 @@
+// Stiff and extreme regrasps: the same problems, pushed to the edge one way at a time.
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "problems/judged_plan.h"
+
+namespace prehensile {
+namespace {
+
+bool must_be_solved(const ExtremeRegrasp& problem) {
+  return problem.outlook == Outlook::kHasPlan || problem.outlook == Outlook::kIsThere;
+}
+
+void expect_sound(std::uint64_t first, int instances, std::int64_t budget) {
+  PlanOptions options;
+  options.budget = budget;
+  std::uint64_t index = first;
+  for (const RegraspExtreme& extreme : regrasp_extremes()) {
+    for (int i = 0; i < instances; ++i) {
+      const ExtremeRegrasp problem = extreme_regrasp(extreme, 7, index++);
+      const JudgedPlan judged = judged_plan(problem, options);
+      EXPECT_NE(judged.verdict, Verdict::kWrong)
+          << problem.scene.name << ": " << judged.reason;
+      if (must_be_solved(problem)) {
+        EXPECT_EQ(judged.verdict, Verdict::kSolved)
+            << problem.scene.name << ": " << judged.reason << judged.plan.message;
+      }
+    }
+  }
+}
+
+TEST(PlannerExtremes, EndWithAPlanOrAReason) { expect_sound(0, 1, 50'000); }
+
+TEST(PlannerExtremes, FullEndWithAPlanOrAReason) { expect_sound(100, 10, 1'000'000); }
+
+TEST(PlannerExtremes, AreToldApart) {
+  std::set<std::string> names;
+  for (const RegraspExtreme& extreme : regrasp_extremes()) {
+    EXPECT_TRUE(names.insert(extreme.group + ": " + extreme.name).second) << extreme.name;
+  }
+}
+
+/// The extreme of this name, of the same problems as any other.
+ExtremeRegrasp with_extreme(const std::string& name, std::uint64_t index) {
+  for (const RegraspExtreme& extreme : regrasp_extremes()) {
+    if (extreme.name == name) return extreme_regrasp(extreme, 7, index);
+  }
+  ADD_FAILURE() << "no extreme is called " << name;
+  return {};
+}
+
+/// Without a margin, which has lengths of its own.
+Plan nominal_plan(const Scene& scene) {
+  PlanOptions options;
+  options.margin = Margin::none();
+  options.budget = 200'000;
+  return plan_regrasp(prepare(scene), options);
+}
+
+bool agree(const Plan& one, const Plan& other) {
+  return std::abs(one.cost - other.cost) <= 1e-3 * one.cost &&
+         std::abs(one.lower_bound - other.lower_bound) <= 1e-3 * one.lower_bound;
+}
+
+/// How many problems have the same cost and bound at another size. All have plans.
+int agreeing(const std::string& size, std::uint64_t instances) {
+  int count = 0;
+  for (std::uint64_t i = 0; i < instances; ++i) {
+    const Plan plan = nominal_plan(with_extreme("tolerance 0.001", i).scene);
+    const Plan scaled = nominal_plan(with_extreme(size, i).scene);
+    EXPECT_TRUE(plan.usable() && scaled.usable()) << size << ", " << i;
+    if (agree(plan, scaled)) ++count;
+  }
+  return count;
+}
+
+// What has no unit does not depend on units.
+TEST(PlannerExtremes, SizeDoesNotMatter) {
+  for (const char* size : {"size times 0.01", "size times 10"}) {
+    EXPECT_EQ(agreeing(size, 10), 10) << size;
+  }
+}
+
+// Roundings of 1e-7 m count in objects of 0.1 mm, and decide now and then in larger ones
+// which of two plans passes its check.
+TEST(PlannerExtremes, FullSizeHardlyMatters) {
+  EXPECT_GE(agreeing("size times 10", 100), 98);
+  EXPECT_GE(agreeing("size times 0.01", 100), 95);
+  EXPECT_GE(agreeing("size times 0.001", 100), 40);
+}
+
+// Forces that grow together change no motion.
+TEST(PlannerExtremes, ForceDoesNotMatter) {
+  for (std::uint64_t i = 0; i < 10; ++i) {
+    const Plan plan = nominal_plan(with_extreme("tolerance 0.001", i).scene);
+    ASSERT_TRUE(plan.usable()) << i;
+    for (const char* force : {"mass and grip times 0.0001", "mass and grip times 1000"}) {
+      const Plan scaled = nominal_plan(with_extreme(force, i).scene);
+      ASSERT_TRUE(scaled.usable()) << force << ", " << i;
+      EXPECT_NEAR(scaled.cost, plan.cost, 1e-6 * plan.cost) << force << ", " << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace prehensile

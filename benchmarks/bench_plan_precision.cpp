@@ -54,7 +54,7 @@ struct Options {
   std::string planner;  // empty: all of kPlanners; else a prefix
   std::string plans = "nominal";
   int problems = 20;  // of each kind
-  int most = 100'000;
+  int most = 30'000;
   std::string plots;
   const char* file = nullptr;
 };

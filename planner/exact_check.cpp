@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "planner/confines_check.h"
 #include "planner/meet_end.h"
@@ -93,6 +94,13 @@ double slack_by_point(const Model& model, const Grasp& start, const LinearPush& 
   }
   return slack;
 }
+
+/// A push of so many turns adds up small errors of its steps: its exact check may pass
+/// and one with half the step fail.
+constexpr double kManyTurns = 20.0 * 2.0 * std::numbers::pi;
+
+/// Points of pushers with less to spare may stick and slip by turns.
+constexpr double kLeastSlackOfPoints = 1e-6;
 
 }  // namespace
 
@@ -189,6 +197,16 @@ bool check_exactly(const Model& model, const TransitionOptions& options, Plan& p
     return false;
   }
   return plan.margin.grasp + plan.margin.tilt == 0.0 || stays_on_object(model, plan, why);
+}
+
+bool is_delicate(const Model& model, const Plan& plan) {
+  return std::ranges::any_of(plan.pushes, [&](const PlannedPush& push) {
+    const auto* linear = std::get_if<LinearPush>(&push.push);
+    const double turn = push.end.X_HO.theta - push.start.X_HO.theta;
+    return std::abs(turn) > kManyTurns ||
+           (linear && model.contacts[linear->contact].is_point &&
+            !(push.slack >= kLeastSlackOfPoints));
+  });
 }
 
 }  // namespace prehensile

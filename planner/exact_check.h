@@ -31,4 +31,8 @@ double travel_in_pad_plane(const Push& push);
 bool check_exactly(const Model& model, const TransitionOptions& options, Plan& plan,
                    std::string* why);
 
+/// Whether exact checks of the pushes, one by one, need not speak for the plan done as a
+/// whole: it should be replayed.
+bool is_delicate(const Model& model, const Plan& plan);
+
 }  // namespace prehensile

@@ -22,6 +22,20 @@ constexpr int kSlopesOfClipped = 61;
 constexpr int kAngles = 8;
 constexpr int kAnglesOfClippedDiscs = 3;
 
+double slope_angle(int i, int slopes) {
+  return std::atan(kMostKappa) * (2.0 * i / (slopes - 1) - 1.0);
+}
+
+std::vector<DirectedDrag::Slope> slopes_of(int count) {
+  std::vector<DirectedDrag::Slope> slopes;
+  slopes.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    const double angle = slope_angle(i, count);
+    slopes.push_back({angle, std::cos(angle), std::sin(angle)});
+  }
+  return slopes;
+}
+
 }  // namespace
 
 KappaRanges common(const KappaRanges& one, const KappaRanges& other) noexcept {
@@ -57,27 +71,26 @@ PadsAtPlace::PadsAtPlace(const Model& model, const Vec2& p_OF)
 }
 
 DirectedDrag::DirectedDrag(const Model& model, const PadsAtPlace& pads, const Vec2& e)
-    : e_(e),
-      slopes_(pads.are_whole() ? kSlopesOfWhole : kSlopesOfClipped),
-      angles_(pads.grasps().size()) {
-  samples_.reserve(slopes_ * angles_);
-  for (int i = 0; i < slopes_; ++i) {
-    const double angle = slope_angle(i);
-    const Vec2 velocity = std::cos(angle) * e;
+    : e_(e), slopes_(slopes_for(pads)), angles_(pads.grasps().size()) {
+  samples_.reserve(slopes_.size() * angles_);
+  for (const Slope& slope : slopes_) {
+    const Vec2 velocity = slope.cosine * e;
     for (const PlanarGrasp& grasp : pads.grasps()) {
       if (model.has_soft_points()) {
-        samples_.push_back({velocity, std::sin(angle)});
+        samples_.push_back({velocity, slope.sine});
         continue;
       }
       const PadDrag drag = drag_of_points(grasp.count, grasp.x, grasp.y, grasp.bound, 1.0,
-                                          velocity, std::sin(angle) / model.c);
+                                          velocity, slope.sine / model.c);
       samples_.push_back({drag.force / model.F, drag.moment / (model.F * model.c)});
     }
   }
 }
 
-double DirectedDrag::slope_angle(int i) const {
-  return std::atan(kMostKappa) * (2.0 * i / (slopes_ - 1) - 1.0);
+std::span<const DirectedDrag::Slope> DirectedDrag::slopes_for(const PadsAtPlace& pads) {
+  static const std::vector<Slope> whole = slopes_of(kSlopesOfWhole);
+  static const std::vector<Slope> clipped = slopes_of(kSlopesOfClipped);
+  return pads.are_whole() ? whole : clipped;
 }
 
 KappaRanges DirectedDrag::kappas(const StickContact& contact,
@@ -95,11 +108,13 @@ KappaRanges DirectedDrag::kappas(const StickContact& contact,
     return std::min({normal, contact.mu * normal - std::abs(force.dot(contact.t)),
                      cross(a, force) - moment, moment - cross(b, force)});
   };
-  const auto slack_at = [&](int i) {
-    const double angle = slope_angle(i);
-    const double along = std::cos(angle) * contact.n.dot(e_);
-    double slack = along + std::max(std::sin(angle) * contact.n.dot(perp(a)),
-                                    std::sin(angle) * contact.n.dot(perp(b)));
+  const double straight = contact.n.dot(e_);
+  const double turning_a = contact.n.dot(perp(a));
+  const double turning_b = contact.n.dot(perp(b));
+  const auto slack_at = [&](std::size_t i) {
+    const Slope& slope = slopes_[i];
+    double slack = slope.cosine * straight +
+                   std::max(slope.sine * turning_a, slope.sine * turning_b);
     for (std::size_t k = 0; k < angles_; ++k) {
       slack = std::min(slack, slack_of(samples_[i * angles_ + k]));
     }
@@ -107,18 +122,18 @@ KappaRanges DirectedDrag::kappas(const StickContact& contact,
   };
   KappaRanges set;
   double before = -1.0;
-  for (int i = 0; i < slopes_; ++i) {
+  for (std::size_t i = 0; i < slopes_.size(); ++i) {
     const double now = slack_at(i);
     const auto crossing = [&] {  // of zero, between the sample before and this one
       const double share = before / (before - now);
-      return std::tan(std::lerp(slope_angle(i - 1), slope_angle(i), share));
+      return std::tan(std::lerp(slopes_[i - 1].angle, slopes_[i].angle, share));
     };
     if (now >= 0.0 && before < 0.0) {
       if (set.count == 2) break;
-      const double lo = i > 0 ? crossing() : std::tan(slope_angle(0));
-      set.intervals[set.count++] = {lo, std::tan(slope_angle(i))};
+      const double lo = i > 0 ? crossing() : std::tan(slopes_[0].angle);
+      set.intervals[set.count++] = {lo, std::tan(slopes_[i].angle)};
     } else if (now >= 0.0) {
-      set.intervals[set.count - 1].hi = std::tan(slope_angle(i));
+      set.intervals[set.count - 1].hi = std::tan(slopes_[i].angle);
     } else if (before >= 0.0) {
       set.intervals[set.count - 1].hi = crossing();
     }

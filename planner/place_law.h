@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "planner/steering.h"
@@ -51,15 +52,20 @@ class DirectedDrag {
   /// at p_OF. No heap.
   KappaRanges kappas(const StickContact& contact, const Vec2& p_OF) const noexcept;
 
+  /// One of the kappas that are looked at, as the angle of (1, kappa) [rad].
+  struct Slope {
+    double angle, cosine, sine;
+  };
+
  private:
   struct Sample {
     Vec2 force;
     double moment = 0.0;
   };
-  double slope_angle(int i) const;
+  static std::span<const Slope> slopes_for(const PadsAtPlace& pads);
 
   Vec2 e_;
-  int slopes_;
+  std::span<const Slope> slopes_;
   std::size_t angles_;
   std::vector<Sample> samples_;  // by slope and angle
 };

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "planner/baselines.h"
@@ -363,16 +361,6 @@ void set_bound(const Model& model, Plan& plan) {
   plan.bound_nodes = bound.nodes;
 }
 
-/// A push of so many turns adds up small errors of its steps: its exact check may pass
-/// and one with half the step fail.
-constexpr double kManyTurns = 20.0 * 2.0 * std::numbers::pi;
-
-bool turns_much(const Plan& plan) {
-  return std::any_of(plan.pushes.begin(), plan.pushes.end(), [](const PlannedPush& push) {
-    return std::abs(push.end.X_HO.theta - push.start.X_HO.theta) > kManyTurns;
-  });
-}
-
 }  // namespace
 
 Plan plan_regrasp(const Model& model, const PlanOptions& options) {
@@ -382,8 +370,8 @@ Plan plan_regrasp(const Model& model, const PlanOptions& options) {
   const bool bounded = plan.usable() || plan.status == PlanStatus::kBudgetSpent ||
                        plan.status == PlanStatus::kStopped;
   if (bounded) set_bound(model, plan);
-  if (plan.usable() && turns_much(plan) && !replay(model, plan).agrees) {
-    set_undecided(plan, "the plan found turns many times and fails with half the step");
+  if (plan.usable() && is_delicate(model, plan) && !replay(model, plan).agrees) {
+    set_undecided(plan, "the plan found fails as a whole with half the step");
     set_bound(model, plan);
   }
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;

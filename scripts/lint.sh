@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Format and lint: clang-format on every source, clang-tidy with the profile in .clang-tidy on every
 # unit of the preset `tidy`, which has no precompiled headers: each source includes what it uses.
-# Without --all less is asked, for a third of the time: tests and programs are left out, and so are
-# the checks that cost most (paths through functions, and two that look at every name in every
-# header) and those whose findings the compiler mostly warns of, too.
+# Without --all less is asked, to save time: tests and programs are left out, and so are the checks
+# that cost most (paths through functions, and two that look at every name in every header) and
+# those whose findings the compiler mostly warns of, too.
 set -euo pipefail
 libraries_only=yes
 left_out=(

@@ -28,7 +28,7 @@ struct StudyProgramFacts {
   bool writes_csv = true;        ///< with -o FILE
 };
 
-inline constexpr std::array<StudyProgramFacts, 13> kStudyPrograms = {{
+inline constexpr std::array<StudyProgramFacts, 16> kStudyPrograms = {{
     {StudyProgram::kInstant, "instant", "benchmarks/bench_instant"},
     {StudyProgram::kSpatial, "spatial", "benchmarks/bench_spatial"},
     {StudyProgram::kExtremes, "extremes", "benchmarks/bench_extremes"},
@@ -39,6 +39,10 @@ inline constexpr std::array<StudyProgramFacts, 13> kStudyPrograms = {{
      QuickStudy::kOption, "--charts"},
     {StudyProgram::kPlanner, "planner", "benchmarks/bench_planner"},
     {StudyProgram::kBaselines, "baselines", "benchmarks/bench_baselines"},
+    {StudyProgram::kPlanPrecision, "plan_precision", "benchmarks/bench_plan_precision",
+     QuickStudy::kOption, "--plots"},
+    {StudyProgram::kPlanModels, "plan_models", "benchmarks/bench_plan_models"},
+    {StudyProgram::kPlanExtremes, "plan_extremes", "benchmarks/bench_plan_extremes"},
     {StudyProgram::kTruth, "truth", "benchmarks/bench_truth", QuickStudy::kOption, "",
      true},
     {StudyProgram::kCollection, "collection", "benchmarks/bench_collection",

@@ -237,7 +237,7 @@ using Command = std::pair<std::string, std::vector<std::string>>;
 std::set<Command> documented_commands() {
   std::set<Command> commands;
   const std::string text = text_of(kRoot / "docs" / "benchmarks.md");
-  const std::regex program("build/release/benchmarks/bench_([a-z]+)([^\n]*)");
+  const std::regex program("build/release/benchmarks/bench_([a-z_]+)([^\n]*)");
   for (std::sregex_iterator it(text.begin(), text.end(), program), end; it != end; ++it) {
     std::istringstream words((*it)[2]);
     Command command{(*it)[1], {}};

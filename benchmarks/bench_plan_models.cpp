@@ -33,7 +33,7 @@ constexpr std::uint64_t kSeed = 1;
 
 struct Options {
   std::string set = "wide";
-  int problems = 50;  // of each kind
+  int problems = 10;  // of each kind
   const char* file = nullptr;
 };
 

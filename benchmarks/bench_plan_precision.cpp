@@ -53,7 +53,7 @@ struct Options {
   std::string set = "wide";
   std::string planner;  // empty: all of kPlanners; else a prefix
   std::string plans = "nominal";
-  int problems = 20;  // of each kind
+  int problems = 10;  // of each kind
   int most = 30'000;
   std::string plots;
   const char* file = nullptr;
@@ -175,6 +175,7 @@ plot::Chart chart_of(const Summaries& summaries, const std::string& title,
   chart.y = {.label = label, .from_zero = true};
   for (const auto& [planner, by_budget] : summaries) {
     plot::Line line{.label = planner, .marks = true};
+    if (planner == PlanOptions{}.planner) line.colour = plot::Colour::kBlack;
     for (const auto& [budget, one] : by_budget) {
       double sum = 0.0;
       for (const double ms : one.ms) sum += ms;

@@ -102,6 +102,10 @@ constexpr double kManyTurns = 20.0 * 2.0 * std::numbers::pi;
 /// Points of pushers with less to spare may stick and slip by turns.
 constexpr double kLeastSlackOfPoints = 1e-6;
 
+/// [m] Over smaller torque radii what a push may miss its end by, 1e-6 m, is much of an
+/// angle.
+constexpr double kLeastRadius = 1e-4;
+
 }  // namespace
 
 double push_slack(const Model& model, const Grasp& start, const Push& push,
@@ -201,11 +205,11 @@ bool check_exactly(const Model& model, const TransitionOptions& options, Plan& p
 
 bool is_delicate(const Model& model, const Plan& plan) {
   return std::ranges::any_of(plan.pushes, [&](const PlannedPush& push) {
-    const auto* linear = std::get_if<LinearPush>(&push.push);
     const double turn = push.end.X_HO.theta - push.start.X_HO.theta;
-    return std::abs(turn) > kManyTurns ||
-           (linear && model.contacts[linear->contact].is_point &&
-            !(push.slack >= kLeastSlackOfPoints));
+    if (std::abs(turn) > kManyTurns) return true;
+    const auto* linear = std::get_if<LinearPush>(&push.push);
+    return linear && model.contacts[linear->contact].is_point &&
+           (!(push.slack >= kLeastSlackOfPoints) || model.c < kLeastRadius);
   });
 }
 

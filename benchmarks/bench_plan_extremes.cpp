@@ -11,6 +11,7 @@
 /// Usage: bench_plan_extremes [--quick] [--only PART] [--instances N] [--seed S]
 ///                            [--budget N] [--planner NAME] [-o FILE]
 /// PART: of "group: name", to run those extremes only.
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <map>
@@ -60,13 +61,17 @@ std::string title_of(const RegraspExtreme& extreme) {
   return extreme.group + ": " + extreme.name;
 }
 
+bool is_wanted(const RegraspExtreme& extreme, const Options& options) {
+  return title_of(extreme).find(options.only) != std::string::npos;
+}
+
 std::vector<Run> run_all(const Options& options) {
   PlanOptions wanted;
   wanted.planner = options.planner;
   wanted.budget = options.budget;
   std::vector<Run> runs;
   for (const RegraspExtreme& extreme : regrasp_extremes()) {
-    if (title_of(extreme).find(options.only) == std::string::npos) continue;
+    if (!is_wanted(extreme, options)) continue;
     for (int i = 0; i < options.instances; ++i) {
       const ExtremeRegrasp problem =
           extreme_regrasp(extreme, options.seed, static_cast<std::uint64_t>(i));
@@ -173,6 +178,14 @@ int run(int count, char** arguments) {
         "usage: bench_plan_extremes [--quick] [--only PART] [--instances N] [--seed S]\n"
         "                           [--budget N] [--planner NAME] [-o FILE]\n",
         stderr);
+    return 2;
+  }
+  const bool any = std::ranges::any_of(
+      regrasp_extremes(),
+      [&](const RegraspExtreme& extreme) { return is_wanted(extreme, options); });
+  if (!any) {
+    std::fprintf(stderr, "error: --only %s: no extreme has this in its title\n",
+                 options.only.c_str());
     return 2;
   }
   CsvFile csv(options.file);

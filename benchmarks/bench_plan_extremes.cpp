@@ -1,12 +1,12 @@
 /// Stiff and extreme regrasps: what the planner makes of tolerances from 1e-2 to 1e-6 m,
 /// frictions from 0 to 1000, up to 64 pushers, slivers, pads from 1e-6 m to beyond the
 /// object, gravity at the limit of the grip, sizes from 1/1000 to 10 times, starts that
-/// are goals and turns without number (problems/extreme_regrasps.h). One CSV line per
+/// are goals and goals up to 12 turns off (problems/extreme_regrasps.h). One CSV line per
 /// run.
 ///
-/// Verdicts: `solved`, a plan that replays; `refused`, bad input or a proof that holds;
-/// `open`, no plan within the budget; `wrong`, a plan or a proof that does not hold, or
-/// that theory contradicts. The exit code is 1 if any is wrong.
+/// Verdicts: `solved`, a plan that replays; `refused`, bad input, out of scope, or a
+/// proof that holds; `open`, no plan within the budget; `wrong`, a plan or a proof that
+/// does not hold, or that theory contradicts. The exit code is 1 if any is wrong.
 ///
 /// Usage: bench_plan_extremes [--quick] [--only PART] [--instances N] [--seed S]
 ///                            [--budget N] [--planner NAME] [-o FILE]
@@ -109,7 +109,7 @@ void write_csv(const Options& options, const std::vector<Run>& runs, std::FILE* 
 /// What the runs of one extreme came to.
 struct Total {
   int runs = 0;
-  int must_be_solved = 0;
+  int with_plan = 0;
   int solved_of_these = 0;
   std::map<Verdict, int> verdicts;
   std::map<std::string, int> reasons;
@@ -120,8 +120,8 @@ struct Total {
     ++runs;
     ++verdicts[run.judged.verdict];
     if (!run.judged.reason.empty()) ++reasons[run.judged.reason];
-    if (run.outlook == Outlook::kHasPlan || run.outlook == Outlook::kIsThere) {
-      ++must_be_solved;
+    if (must_be_solved(run.outlook)) {
+      ++with_plan;
       if (solved) ++solved_of_these;
     }
     times.push_back(run.time_ms);
@@ -133,7 +133,7 @@ struct Total {
       why += (why.empty() ? "" : ", ") + std::to_string(count) + " " + reason;
     }
     std::fprintf(out, "%-44s%6d%5d of %-5d%7d%8d%6d%6d%10.3g%10.4g  %s\n", title.c_str(),
-                 runs, solved_of_these, must_be_solved, verdicts[Verdict::kSolved],
+                 runs, solved_of_these, with_plan, verdicts[Verdict::kSolved],
                  verdicts[Verdict::kRefused], verdicts[Verdict::kOpen],
                  verdicts[Verdict::kWrong], quantile(times, 0.5), quantile(times, 1.0),
                  why.c_str());

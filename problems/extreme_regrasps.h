@@ -18,11 +18,15 @@ enum class Outlook {
   kIsThere,  ///< the start is a goal
 };
 
+inline bool must_be_solved(Outlook outlook) {
+  return outlook == Outlook::kHasPlan || outlook == Outlook::kIsThere;
+}
+
 struct RegraspExtreme {
   std::string group;  ///< what is extreme: "tolerance", "friction", "pushers", ...
   std::string name;   ///< unique
-  /// Changes a scene that random pushes made, without slip by lines, as the exact
-  /// mechanics goes by points.
+  /// Changes a scene whose goal is where random pushes end: those by lines stick with the
+  /// exact pads over the default margin, those by points are followed by the mechanics.
   std::function<Outlook(Scene&)> apply;
 };
 

@@ -38,10 +38,10 @@ inline std::string_view name(Verdict verdict) {
   return "wrong";
 }
 
+/// Plans for the problem and judges the answer: by the replay, by `verify`, and by what
+/// theory says.
 inline JudgedPlan judged_plan(const ExtremeRegrasp& problem, const PlanOptions& options) {
   const Outlook outlook = problem.outlook;
-  const bool must_be_solved =
-      outlook == Outlook::kHasPlan || outlook == Outlook::kIsThere;
   const auto faults = check(problem.scene);
   if (!faults.empty()) {
     return {Verdict::kRefused, "bad input: " + faults.front().field, {}};
@@ -66,7 +66,7 @@ inline JudgedPlan judged_plan(const ExtremeRegrasp& problem, const PlanOptions& 
   if (plan.status == PlanStatus::kInfeasible) {
     std::string why;
     if (!verify(model, plan.proof, &why)) return end(Verdict::kWrong, why);
-    if (must_be_solved) return end(Verdict::kWrong, "there is a plan");
+    if (must_be_solved(outlook)) return end(Verdict::kWrong, "there is a plan");
     return end(Verdict::kRefused, std::string(name(plan.proof.kind)));
   }
   if (plan.status == PlanStatus::kUnsupported) {

@@ -3,16 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
-#include <numbers>
 #include <numeric>
 #include <optional>
 #include <queue>
 #include <tuple>
 #include <vector>
 
+#include "planner/free_directions.h"
 #include "planner/goal_cover.h"
 #include "planner/local_law.h"
+#include "planner/place_slacks.h"
 #include "planner/ring_kappas.h"
 #include "planner/steering.h"
 #include "scene/outline.h"
@@ -20,11 +22,11 @@
 namespace prehensile {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Of the grids that are tried, over the longer side of the object.
 constexpr std::array kNodesPerSide = {48, 96};
+constexpr std::array kNodesPerSideWhereClipped = {96, 192};
 
 /// Straight pieces of a way lead to the nodes up to so many rows or columns away.
 constexpr int kStride = 10;
@@ -32,6 +34,10 @@ constexpr int kStride = 10;
 /// By so much more than what sticks the field lets a way turn for nothing: its
 /// pieces have few directions, and what sticks changes from node to node. Tried in order.
 constexpr std::array kFreely = {0.06, 0.02, 0.005, 0.0};  // [rad]
+constexpr std::array kFreelyWhereClipped = {0.06, 0.0};
+
+/// Where the face clips the discs: so much slack, over F, may be missing. Tried in order.
+constexpr std::array kAllowed = {0.06, 0.03, 0.015, 0.008};
 
 /// Levels of the field that are tried, as shares of its value at the goal.
 constexpr std::array kLevels = {0.5, 0.25, 0.75};
@@ -39,75 +45,53 @@ constexpr std::array kLevels = {0.5, 0.25, 0.75};
 /// A field with less at the goal [spacings of the grid] shows no barrier.
 constexpr double kLeastValue = 0.5;
 
-/// Around a place, what sticks is looked at in so many directions; where it begins and
-/// ends between two of them is halved so often.
-constexpr int kDirections = 72;
-constexpr int kHalvings = 7;
-
-Vec2 towards(double angle) { return {std::cos(angle), std::sin(angle)}; }
-double angle_of(const Vec2& way) { return std::atan2(way.y(), way.x()); }
-
-/// Directions from an angle to another, counter-clockwise [rad].
-struct Arc {
-  double from, to;
-};
-
-/// Directions in which the finger axis can be moved at a place.
-class FreeDirections {
+/// What sticks at a place, over pads that are whole everywhere.
+class WholePads {
  public:
-  FreeDirections() = default;
-  template <class Test>
-  explicit FreeDirections(const Test& is_free) {
-    const auto at = [](double k) { return 2.0 * kPi * k / kDirections; };
-    std::array<bool, kDirections> free;
-    for (int k = 0; k < kDirections; ++k) free[k] = is_free(at(k));
-    const auto turn = [&](int k) {  // between k and k + 1
-      double low = k;
-      double high = k + 1;
-      for (int i = 0; i < kHalvings; ++i) {
-        const double middle = 0.5 * (low + high);
-        (is_free(at(middle)) == free[k] ? low : high) = middle;
+  explicit WholePads(const Model& model)
+      : search_(prepare_search(model, Margin::none())), model_(model) {}
+
+  FreeDirections free_at(const Vec2& place) const {
+    if (depth_inside(model_.pad_face, place) < 0.0) return {};
+    std::vector<const StickContact*> contacts;
+    for (const SearchContact& contact : search_.contacts) {
+      const Vec2& g_O = model_.contacts[contact.contact].g_O;
+      if (holding_slack(model_, place, g_O, Margin::none()) >= 0.0) {
+        contacts.push_back(&contact.stick);
       }
-      return at(high);
-    };
-    const auto is_begin = [&](int k) { return !free[k] && free[(k + 1) % kDirections]; };
-    for (int k = 0; k < kDirections; ++k) {
-      if (!is_begin(k)) continue;
-      int end = k + 1;
-      while (free[end % kDirections]) ++end;
-      arcs_.push_back({turn(k), at(end - 1) + turn((end - 1) % kDirections) -
-                                    at((end - 1) % kDirections)});
     }
-    all_ = std::all_of(free.begin(), free.end(), [](bool yes) { return yes; });
-  }
-
-  const std::vector<Arc>& arcs() const { return arcs_; }
-
-  /// Sine of the angle of a direction to the next that is free, or `freely` beside one.
-  double cheating(double angle, double freely) const {
-    if (all_) return 0.0;
-    double beyond = kPi / 2.0;
-    for (const Arc& arc : arcs_) {
-      const double half = 0.5 * (arc.to - arc.from);
-      const double off = std::abs(std::remainder(angle - arc.from - half, 2.0 * kPi));
-      beyond = std::min(beyond, off - half - freely);
-    }
-    return beyond <= 1e-9 ? 0.0 : std::sin(beyond);
+    if (contacts.empty()) return {};
+    return FreeDirections::where([&](double angle) {
+      return std::any_of(contacts.begin(), contacts.end(), [&](const auto* contact) {
+        return sticks(*contact, place, -towards(angle));
+      });
+    });
   }
 
  private:
-  std::vector<Arc> arcs_;
-  bool all_ = false;
+  bool sticks(const StickContact& contact, const Vec2& place, const Vec2& e) const {
+    const bool ring = search_.rings && !contact.is_point;
+    const KappaSet kappas = ring ? search_.rings->kappas(contact, place, e)
+                                 : sticking_kappas(contact, place, e);
+    return !kappas.empty();
+  }
+
+  const SearchModel search_;
+  const Model& model_;
 };
+
+using FreeAt = std::function<FreeDirections(const Vec2&)>;
 
 /// What ways of the finger axis from the start cost: the part of them across what sticks.
 class CheatField {
  public:
-  CheatField(const Model& model, int nodes_per_side)
-      : search_(prepare_search(model, Margin::none())),
-        model_(model),
-        grid_(PlaceGrid::over(model.pad_face, nodes_per_side)),
-        free_(grid_.count()) {
+  /// `both_ends`: a piece of a way costs what it does where that is less, for what sticks
+  /// changes much between places; else what it does where it begins.
+  CheatField(const Model& model, int nodes_per_side, FreeAt free_at, bool both_ends)
+      : grid_(PlaceGrid::over(model.pad_face, nodes_per_side)),
+        free_at_(std::move(free_at)),
+        both_ends_(both_ends),
+        free_(static_cast<std::size_t>(grid_.count())) {
     for (int i = -kStride; i <= kStride; ++i) {
       for (int j = -kStride; j <= kStride; ++j) {
         if (std::gcd(i, j) != 1) continue;
@@ -131,7 +115,7 @@ class CheatField {
       open.push({value, node});
     };
     const double reach = kStride * grid_.spacing;
-    const FreeDirections at_start = free_at(start);
+    const FreeDirections at_start = free_at_(start);
     for (int node = 0; node < grid_.count(); ++node) {
       const Vec2 way = grid_.place(node) - start;
       if (way.norm() > reach) continue;
@@ -155,7 +139,11 @@ class CheatField {
         if (!grid_.has(i + step.i, j + step.j)) continue;
         const int next = grid_.index(i + step.i, j + step.j);
         if (value >= cost[next]) continue;
-        offer(next, value + step.length * free.cheating(step.angle, freely));
+        double cheating = free.cheating(step.angle, freely);
+        if (both_ends_ && cheating > 0.0) {
+          cheating = std::min(cheating, free_of(next).cheating(step.angle, freely));
+        }
+        offer(next, value + step.length * cheating);
       }
     }
     for (double& value : cost) value = std::min(value, *of_goal);
@@ -176,37 +164,14 @@ class CheatField {
   };
 
   const FreeDirections& free_of(int node) {
-    if (!free_[node]) free_[node] = free_at(grid_.place(node));
-    return *free_[node];
+    std::optional<FreeDirections>& free = free_[static_cast<std::size_t>(node)];
+    if (!free) free = free_at_(grid_.place(node));
+    return *free;
   }
 
-  FreeDirections free_at(const Vec2& place) const {
-    if (depth_inside(model_.pad_face, place) < 0.0) return {};
-    std::vector<const StickContact*> contacts;
-    for (const SearchContact& contact : search_.contacts) {
-      const Vec2& g_O = model_.contacts[contact.contact].g_O;
-      if (holding_slack(model_, place, g_O, Margin::none()) >= 0.0) {
-        contacts.push_back(&contact.stick);
-      }
-    }
-    if (contacts.empty()) return {};
-    return FreeDirections([&](double angle) {
-      return std::any_of(contacts.begin(), contacts.end(), [&](const auto* contact) {
-        return sticks(*contact, place, -towards(angle));
-      });
-    });
-  }
-
-  bool sticks(const StickContact& contact, const Vec2& place, const Vec2& e) const {
-    const bool ring = search_.rings && !contact.is_point;
-    const KappaSet kappas = ring ? search_.rings->kappas(contact, place, e)
-                                 : sticking_kappas(contact, place, e);
-    return !kappas.empty();
-  }
-
-  const SearchModel search_;
-  const Model& model_;
   PlaceGrid grid_;
+  FreeAt free_at_;
+  bool both_ends_;
   std::vector<Step> steps_;
   std::vector<std::optional<FreeDirections>> free_;  // of nodes looked at
 };
@@ -223,8 +188,13 @@ std::vector<Vec2> places_of(const Goal& goal, double spacing) {
   return places;
 }
 
-/// A level of the field that is a barrier.
-Loops barrier_in(const Model& model, CheatField& field, double freely) {
+/// What a field shows.
+struct Shown {
+  bool separates = false;  ///< the goal from the start, if only by what it allows
+  Loops barrier;           ///< a level that is one
+};
+
+Shown shown_by(const Model& model, CheatField& field, double freely) {
   const double spacing = field.grid().spacing;
   const Vec2 start = finger_in_object(model.scene.start.X_HO);
   const std::vector<Vec2> goals = places_of(*model.scene.goal, 0.25 * spacing);
@@ -233,7 +203,42 @@ Loops barrier_in(const Model& model, CheatField& field, double freely) {
   if (!(of_goal > kLeastValue * spacing) || of_goal == kInfinity) return {};
   for (const double share : kLevels) {
     Loops region = loops_below(field.grid(), cost, share * of_goal, 0.1 * spacing);
-    if (verify_barrier(model, region, nullptr)) return region;
+    if (verify_barrier(model, region, nullptr)) return {true, std::move(region)};
+  }
+  return {true, {}};
+}
+
+Loops barrier_of_whole_pads(const Model& model) {
+  const WholePads pads(model);
+  for (const int nodes : kNodesPerSide) {
+    CheatField field(
+        model, nodes, [&](const Vec2& place) { return pads.free_at(place); }, false);
+    for (const double freely : kFreely) {
+      Shown shown = shown_by(model, field, freely);
+      if (!shown.barrier.empty()) return shown.barrier;
+    }
+  }
+  return {};
+}
+
+Loops barrier_of_clipped_discs(const Model& model) {
+  PlaceSlacks slacks(model);
+  for (const int nodes : kNodesPerSideWhereClipped) {
+    bool any_separates = false;
+    for (const double allowed : kAllowed) {
+      CheatField field(
+          model, nodes,
+          [&](const Vec2& place) {
+            return FreeDirections::above(slacks.at(place), -allowed);
+          },
+          true);
+      for (const double freely : kFreelyWhereClipped) {
+        Shown shown = shown_by(model, field, freely);
+        if (!shown.barrier.empty()) return shown.barrier;
+        any_separates = any_separates || shown.separates;
+      }
+    }
+    if (!any_separates) break;
   }
   return {};
 }
@@ -242,15 +247,12 @@ Loops barrier_in(const Model& model, CheatField& field, double freely) {
 
 Loops find_barrier(const Model& model) {
   const Goal& goal = *model.scene.goal;
-  if (!goal.x || !goal.y || !LocalLaw(model).is_known()) return {};
-  for (const int nodes : kNodesPerSide) {
-    CheatField field(model, nodes);
-    for (const double freely : kFreely) {
-      Loops region = barrier_in(model, field, freely);
-      if (!region.empty()) return region;
-    }
+  if (!goal.x || !goal.y) return {};
+  if (has_clipped_discs(model)) {
+    return LocalLaw::of_whole_discs(model).is_known() ? barrier_of_clipped_discs(model)
+                                                      : Loops{};
   }
-  return {};
+  return LocalLaw(model).is_known() ? barrier_of_whole_pads(model) : Loops{};
 }
 
 }  // namespace prehensile

@@ -4,6 +4,7 @@
 
 #include "mechanics/pad_law.h"
 #include "planner/barrier.h"
+#include "planner/clipped_law.h"
 #include "planner/goal_cover.h"
 #include "planner/local_law.h"
 #include "scene/outline.h"
@@ -19,8 +20,14 @@ constexpr int kMostCuts = 12;
 constexpr int kMostTurns = 8;
 
 /// Of the friction's power: what a fall has to leave, for a disc of points resists a
-/// little more or less as it turns.
+/// little more or less as it turns; a clipped one more so.
 constexpr double kUneven = 0.02;
+constexpr double kUnevenWhereClipped = 0.05;
+
+/// Pieces where the face clips the discs, in their torque radii: from the longest that
+/// are looked at to the shortest that are cut.
+constexpr double kLongestClipped = 0.15;
+constexpr double kShortestClipped = 0.02;
 
 bool refuse(std::string* why, const char* text) {
   if (why) *why = text;
@@ -122,20 +129,70 @@ bool none_crosses(const LocalLaw& law, int contact, const Piece& piece, double a
          none_crosses(law, contact, piece, angle + half, half, turns - 1);
 }
 
-bool is_sealed(const Model& model, const LocalLaw& law, const Piece& piece, int cuts) {
-  if (depth_inside(model.pad_face, piece.middle()) < -0.5 * piece.length()) return true;
-  const auto blocks = [&](std::size_t k) {
+/// The laws at every place, and which of them hold for a piece.
+class BorderLaw {
+ public:
+  explicit BorderLaw(const Model& model)
+      : model_(model),
+        clips_(has_clipped_discs(model)),
+        whole_(clips_ ? LocalLaw::of_whole_discs(model) : LocalLaw(model)) {}
+
+  bool is_known() const { return whole_.is_known(); }
+
+  bool is_sealed(const Piece& piece, int cuts) const {
+    if (depth_inside(model_.pad_face, piece.middle()) < -0.5 * piece.length())
+      return true;
+    const bool whole = is_whole(piece);
+    const double c = model_.c;
+    if (whole
+            ? all_blocked(piece)
+            : piece.length() <= kLongestClipped * c && all_blocked_where_clipped(piece)) {
+      return true;
+    }
+    if (cuts == 0 || (!whole && piece.length() < kShortestClipped * c)) return false;
+    const Vec2 middle = piece.middle();
+    return is_sealed({piece.a, middle, piece.out}, cuts - 1) &&
+           is_sealed({middle, piece.b, piece.out}, cuts - 1);
+  }
+
+ private:
+  bool is_whole(const Piece& piece) const {
+    return !clips_ || model_.region.whole_margin(pose_from_finger(piece.middle(), 0.0)) >=
+                          0.5 * piece.length();
+  }
+
+  bool all_blocked(const Piece& piece) const {
     constexpr double kAcross = 0.5 * std::numbers::pi;
-    return none_crosses(law, static_cast<int>(k), piece, 0.0, kAcross, kMostTurns) ||
-           falls_all_along(model, model.contacts[k], piece);
-  };
-  bool sealed = true;
-  for (std::size_t k = 0; k < model.contacts.size() && sealed; ++k) sealed = blocks(k);
-  if (sealed || cuts == 0) return sealed;
-  const Vec2 middle = piece.middle();
-  return is_sealed(model, law, {piece.a, middle, piece.out}, cuts - 1) &&
-         is_sealed(model, law, {middle, piece.b, piece.out}, cuts - 1);
-}
+    bool all = true;
+    for (std::size_t k = 0; k < model_.contacts.size() && all; ++k) {
+      all = none_crosses(whole_, static_cast<int>(k), piece, 0.0, kAcross, kMostTurns) ||
+            falls_all_along(model_, model_.contacts[k], piece);
+    }
+    return all;
+  }
+
+  bool all_blocked_where_clipped(const Piece& piece) const {
+    const ClippedLaw law(model_, {piece.a, piece.b}, piece.out);
+    bool all = law.is_known();
+    for (std::size_t k = 0; k < model_.contacts.size() && all; ++k) {
+      all = !law.may_cross(static_cast<int>(k)) || falls(law, model_.contacts[k], piece);
+    }
+    return all;
+  }
+
+  bool falls(const ClippedLaw& law, const PushContact& contact,
+             const Piece& piece) const {
+    const PlanarGrasp grasp =
+        grasp_at(model_, pose_from_finger(piece.middle(), 0.0), contact.g_O);
+    PlanarTwist fall = PlanarTwist::Zero();
+    return gravity_slack_by_pad_law(model_, grasp, &fall) < 0.0 &&
+           law.falls(contact, fall, kUnevenWhereClipped);
+  }
+
+  const Model& model_;
+  bool clips_;
+  LocalLaw whole_;
+};
 
 /// The piece with its normal away from the region. Borders neither cross nor touch, so
 /// that one place beside the piece decides for all of it.
@@ -151,7 +208,7 @@ Piece piece_of(const Loops& region, const Vec2& a, const Vec2& b) {
 bool verify_barrier(const Model& model, const Loops& region, std::string* why) {
   const Goal& goal = *model.scene.goal;
   if (!goal.x || !goal.y) return refuse(why, "the goal leaves a coordinate free");
-  const LocalLaw law(model);
+  const BorderLaw law(model);
   if (!law.is_known())
     return refuse(why, "the friction of these pads is not known at every angle");
   if (!is_well_formed(region, why)) return false;
@@ -167,7 +224,7 @@ bool verify_barrier(const Model& model, const Loops& region, std::string* why) {
   for (const auto& loop : region) {
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const Piece piece = piece_of(region, loop[i], loop[(i + 1) % loop.size()]);
-      if (!is_sealed(model, law, piece, kMostCuts)) {
+      if (!law.is_sealed(piece, kMostCuts)) {
         return refuse(why, "a push may cross the border of the region");
       }
     }

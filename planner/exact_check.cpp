@@ -11,6 +11,7 @@
 #include "planner/ring_pads.h"
 #include "planner/roll_step.h"
 #include "planner/space_margin.h"
+#include "planner/spread_pads.h"
 #include "planner/steering.h"
 
 namespace prehensile {
@@ -114,6 +115,7 @@ double push_slack(const Model& model, const Grasp& start, const Push& push,
     return roll_slack(model, *roll, margin);
   constexpr double kPointTravel = 2e-3;  // [m]
   constexpr double kPointTurn = 0.1;     // [rad]
+  constexpr int kMostSpreadParts = 100;
   const LinearPush linear = as_linear(push);
   const PushContact& contact = model.contacts[linear.contact];
   const Vec2 p_OF = finger_in_object(start.X_HO);
@@ -121,9 +123,13 @@ double push_slack(const Model& model, const Grasp& start, const Push& push,
       std::max(linear.travel / kPointTravel, std::abs(linear.turn) / kPointTurn);
   const int points = static_cast<int>(std::clamp(std::ceil(parts) + 1.0, 3.0, 50.0));
   if (contact.is_point) return slack_by_point(model, start, linear, points - 1, margin);
-  double slack = has_ring_pads(model) ? ring_slack(model, contact, p_OF, linear.e,
-                                                   linear.travel, linear.turn)
-                                      : std::numeric_limits<double>::infinity();
+  double slack = std::numeric_limits<double>::infinity();
+  if (has_ring_pads(model)) {
+    slack = ring_slack(model, contact, p_OF, linear.e, linear.travel, linear.turn);
+  } else if (has_clipped_discs(model)) {
+    slack = spread_slack_along(model, contact, p_OF, linear.e, linear.travel, linear.turn,
+                               kMostSpreadParts);
+  }
   for (int i = 0; i < points; ++i) {
     const double s = static_cast<double>(i) / (points - 1);
     const PlanarPose X_HO = pose_from_finger(p_OF - s * linear.travel * linear.e,

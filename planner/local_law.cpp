@@ -65,13 +65,14 @@ FrictionBox beyond(const FrictionBox& last) {
 
 double middle_sine(const FrictionBox& box) { return box.sine_low + box.sine_high; }
 
-std::vector<FrictionBox> boxes_of(const Model& model) {
-  for (const PushContact& contact : model.contacts) {
-    if (model.needs_space(contact)) return {};
-  }
-  if (!(model.F > 0.0 && model.c > 0.0)) return {};
-  if (model.has_soft_points()) return ellipsoid_boxes();
-  const PadSection section = pad_section(model);
+bool has_planar_pushes(const Model& model) {
+  return model.F > 0.0 && model.c > 0.0 &&
+         std::ranges::none_of(model.contacts, [&](const PushContact& contact) {
+           return model.needs_space(contact);
+         });
+}
+
+std::vector<FrictionBox> boxes_of(const PadSection& section) {
   std::vector<FrictionBox> boxes;
   for (const SectionCell& cell : section.cells) boxes.push_back(box_of(cell));
   for (const double sign : {1.0, -1.0}) {
@@ -84,6 +85,12 @@ std::vector<FrictionBox> boxes_of(const Model& model) {
   }
   std::ranges::stable_sort(boxes, {}, &middle_sine);
   return boxes;
+}
+
+std::vector<FrictionBox> boxes_of(const Model& model) {
+  if (!has_planar_pushes(model)) return {};
+  if (model.has_soft_points()) return ellipsoid_boxes();
+  return boxes_of(pad_section(model));
 }
 
 FrictionBox united(const FrictionBox& a, const FrictionBox& b) {
@@ -271,7 +278,16 @@ double least_in_tree(const std::vector<FrictionBox>& tree, const Demands& demand
 }  // namespace
 
 LocalLaw::LocalLaw(const Model& model, bool weightless)
-    : model_(model), weightless_(weightless), tree_(tree_over(boxes_of(model))) {}
+    : LocalLaw(model, weightless, boxes_of(model)) {}
+
+LocalLaw::LocalLaw(const Model& model, bool weightless,
+                   const std::vector<FrictionBox>& boxes)
+    : model_(model), weightless_(weightless), tree_(tree_over(boxes)) {}
+
+LocalLaw LocalLaw::of_whole_discs(const Model& model) {
+  if (!has_planar_pushes(model)) return {model, false, {}};
+  return {model, false, boxes_of(section_of_whole_discs(model))};
+}
 
 bool LocalLaw::is_in_cone(const PushContact& contact,
                           const DirectionSpan& directions) const noexcept {

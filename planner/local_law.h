@@ -42,6 +42,10 @@ class LocalLaw {
   /// without gravity as well (Margin::weightless).
   explicit LocalLaw(const Model& model, bool weightless = false);
 
+  /// Of discs that the face clips elsewhere (has_clipped_discs), at places where they are
+  /// whole.
+  static LocalLaw of_whole_discs(const Model& model);
+
   /// False: these pads have none, or pushes need the mechanics in space.
   bool is_known() const { return !tree_.empty(); }
 
@@ -56,6 +60,8 @@ class LocalLaw {
                       const DirectionSpan& directions, double share) const noexcept;
 
  private:
+  LocalLaw(const Model& model, bool weightless, const std::vector<FrictionBox>& boxes);
+
   /// Whether any friction of the pads is within the friction cone.
   bool is_in_cone(const PushContact& contact,
                   const DirectionSpan& directions) const noexcept;

@@ -248,4 +248,8 @@ PadSection pad_section(const Model& model) {
   return section;
 }
 
+PadSection section_of_whole_discs(const Model& model) {
+  return ring_section(model.region.whole(), model.c);
+}
+
 }  // namespace prehensile

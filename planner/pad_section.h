@@ -37,4 +37,7 @@ struct PadSection {
 /// turn, or have no friction or torque.
 PadSection pad_section(const Model& model);
 
+/// Of discs that the face clips elsewhere (has_clipped_discs), where they are whole.
+PadSection section_of_whole_discs(const Model& model);
+
 }  // namespace prehensile

@@ -8,6 +8,7 @@
 #include "planner/placement.h"
 #include "planner/ring_kappas.h"
 #include "planner/segment.h"
+#include "planner/spread_pads.h"
 
 namespace prehensile {
 namespace {
@@ -275,6 +276,32 @@ std::optional<Move> direct_move(const SearchModel& search, const FlatState& from
   return std::nullopt;
 }
 
+namespace {
+
+/// Of discs, spread over all angles; infinity of other pads.
+double slack_of_spread_pads(const SearchModel& search, const Move& move,
+                            Work& work) noexcept {
+  constexpr int kParts = 3;
+  constexpr int kTestsForPlace = 10;
+  const Model& model = *search.model;
+  const Motion motion(move.from, move.to);
+  const PushContact& contact = model.contacts[search.contacts[move.contact].contact];
+  const Vec2 e = motion.direction(contact.n);
+  if (has_ring_pads(model)) {
+    return ring_slack(model, contact, move.from.p_OF, e, motion.travel(), motion.omega);
+  }
+  if (!has_clipped_discs(model) || contact.is_point) {
+    return std::numeric_limits<double>::infinity();
+  }
+  int clipped = 0;
+  const double slack = spread_slack_along(
+      model, contact, move.from.p_OF, e, motion.travel(), motion.omega, kParts, &clipped);
+  work.other += kTestsForPlace * clipped;
+  return slack;
+}
+
+}  // namespace
+
 double move_slack(const SearchModel& search, const Move& move, int points,
                   Work& work) noexcept {
   const double place = place_of(search, move);
@@ -285,13 +312,8 @@ double move_slack(const SearchModel& search, const Move& move, int points,
     const double share = static_cast<double>(i) / (points - 1);
     least = std::min(least, pad_test(search, move, place, share, margin).slack);
   }
-  if (!has_ring_pads(*search.model) || !(least >= -kStickTolerance)) return least;
-  const Motion motion(move.from, move.to);
-  const PushContact& contact =
-      search.model->contacts[search.contacts[move.contact].contact];
-  return std::min(least,
-                  ring_slack(*search.model, contact, move.from.p_OF,
-                             motion.direction(contact.n), motion.travel(), motion.omega));
+  if (!(least >= -kStickTolerance)) return least;
+  return std::min(least, slack_of_spread_pads(search, move, work));
 }
 
 bool path_on_object(const Model& model, const PathEnd& from, const PathEnd& to,

@@ -1,0 +1,71 @@
+/// What discs that the face clips let a contact do at an instant: whether a sticking push
+/// can carry the finger axis across a straight line, whatever the object turns by and at
+/// whatever angle. Internal to the planner.
+///
+/// The friction is that of the points spread over all angles (spread_pads.h), whose power
+/// P is a convex function of the motion xi. So for any motion eta, any t > 0 and the
+/// friction w of any motion, w(xi).eta <= (P(xi + t eta) - P(xi)) / t and P(xi) >= w.xi:
+/// over a triangle of motions the corners bound what an inequality of a sticking instant
+/// can be. Places between two that are looked at count by widening.
+#pragma once
+
+#include <array>
+
+#include "planner/local_law.h"
+#include "planner/spread_pads.h"
+
+namespace prehensile {
+
+class ClippedLaw {
+ public:
+  /// Of motions across `line`, which has to be short against the discs, towards `out`.
+  /// `model` has clipped discs (has_clipped_discs) and must outlive the law.
+  ClippedLaw(const Model& model, const PlaceSpan& line, const Vec2& out);
+
+  /// The discs touch the object at both ends.
+  bool is_known() const;
+
+  /// Whether the contact, wherever along its face its pusher stands, may stick and move
+  /// the finger axis across the line.
+  bool may_cross(int contact) const;
+
+  /// Whether gravity's power in the twist, about the finger axis, exceeds that of
+  /// friction by a share of it at both ends.
+  bool falls(const PushContact& contact, const PlanarTwist& twist, double share) const;
+
+ private:
+  const Model& model_;
+  PlaceSpan line_;
+  Vec2 out_;
+  SpreadPads at_a_, at_b_;
+};
+
+/// What sticking asks of the friction of pads at a place, as inequalities over F.
+class StickDemands {
+ public:
+  StickDemands(const Model& model, const PushContact& contact, const Vec2& p_OF);
+
+  /// eta . friction + constant >= 0 with friction = (force, moment / c); eta of length 1.
+  struct Inequality {
+    Eigen::Vector3d eta;
+    double constant = 0.0;
+  };
+  int count() const { return count_; }
+  const Inequality& operator[](int i) const { return inequalities_[i]; }
+
+  /// The least of what they leave.
+  double slack(const Eigen::Vector3d& friction) const;
+
+ private:
+  void add(const Eigen::Vector3d& eta, double constant);
+
+  std::array<Inequality, 5> inequalities_;
+  int count_ = 0;
+};
+
+/// Rate at which the pusher advances at an end of its face, for a motion (velocity of the
+/// object at the finger axis, c times its rate of turn).
+double advance_at(const Vec2& end, const PushContact& contact, const Vec2& p_OF, double c,
+                  const Eigen::Vector3d& motion);
+
+}  // namespace prehensile

@@ -1,0 +1,27 @@
+#include "planner/free_directions.h"
+
+namespace prehensile {
+
+FreeDirections FreeDirections::above(const std::array<double, kLookedAt>& values,
+                                     double least) {
+  std::array<bool, kLookedAt> free;
+  for (int k = 0; k < kLookedAt; ++k) free[k] = values[k] >= least;
+  return {free, [&](int k) {
+            const double from = values[k] - least;
+            return from / (from - (values[(k + 1) % kLookedAt] - least));
+          }};
+}
+
+double FreeDirections::cheating(double angle, double freely) const {
+  if (all_) return 0.0;
+  double beyond = std::numbers::pi / 2.0;
+  for (const Arc& arc : arcs_) {
+    const double half = 0.5 * (arc.to - arc.from);
+    const double off =
+        std::abs(std::remainder(angle - arc.from - half, 2.0 * std::numbers::pi));
+    beyond = std::min(beyond, off - half - freely);
+  }
+  return beyond <= 1e-9 ? 0.0 : std::sin(beyond);
+}
+
+}  // namespace prehensile

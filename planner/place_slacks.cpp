@@ -1,0 +1,201 @@
+#include "planner/place_slacks.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "mechanics/pad_law.h"
+#include "planner/ring_pads.h"
+#include "scene/outline.h"
+
+namespace prehensile {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kDirections = FreeDirections::kLookedAt;
+
+/// Nodes of the grid over the longer side of the object.
+constexpr int kNodesPerSide = 96;
+
+/// Where the discs are clipped only every second direction is looked at.
+constexpr int kStrideWhereClipped = 2;
+
+/// What has less at the rates of turn first looked at is as good as none.
+constexpr double kHopeless = -0.35;
+
+/// Rates of turn that are looked at, evenly in the angle of (1, kappa), and steps towards
+/// the best between them.
+constexpr int kSlopes = 61;
+constexpr int kSlopesWhereClipped = 17;
+constexpr int kRefinements = 6;
+constexpr double kSteepest = 1.56;  // [rad]
+
+/// The friction of whole discs is tabulated at so many.
+constexpr int kTabulated = 361;
+
+/// Over which the points of clipped discs are spread: fewer than the check looks at.
+constexpr int kAnglesOfFinder = 5;
+
+/// Gravity counts as held where less than this of the friction is missing.
+constexpr double kNearlyHeld = 0.06;
+
+/// What contacts ask at one place, for one motion after another.
+class Asked {
+ public:
+  Asked(const Model& model, const Vec2& p_OF, const std::vector<int>& contacts)
+      : model_(model), p_OF_(p_OF) {
+    for (const int k : contacts) {
+      asked_.push_back({&model.contacts[k], {model, model.contacts[k], p_OF}});
+    }
+  }
+
+  double slack(const Eigen::Vector3d& motion, const Eigen::Vector3d& friction) const {
+    double most = -kInfinity;
+    for (const auto& [contact, demands] : asked_) {
+      const auto advance = [&](const Vec2& end) {
+        return advance_at(end, *contact, p_OF_, model_.c, motion);
+      };
+      if (std::max(advance(contact->a), advance(contact->b)) < 0.0) continue;
+      most = std::max(most, demands.slack(friction));
+    }
+    return most;
+  }
+
+ private:
+  struct Of {
+    const PushContact* contact;
+    StickDemands demands;
+  };
+  const Model& model_;
+  const Vec2& p_OF_;
+  std::vector<Of> asked_;
+};
+
+Eigen::Vector3d motion_along(const Vec2& e, double angle) {
+  return {std::cos(angle) * e.x(), std::cos(angle) * e.y(), std::sin(angle)};
+}
+
+/// The greatest value found of a function of the angle of (1, kappa): it rises to it and
+/// falls from it nearby.
+template <class Function>
+double most_over_slopes(int count, const Function& value) {
+  const double step = 2.0 * kSteepest / (count - 1);
+  double most = -kInfinity;
+  double best = 0.0;
+  for (int i = 0; i < count; ++i) {
+    const double angle = step * i - kSteepest;
+    const double at = value(angle);
+    if (at > most) {
+      most = at;
+      best = angle;
+    }
+  }
+  if (most < kHopeless) return std::max(most, -1.0);
+  double low = std::max(best - step, -kSteepest);
+  double high = std::min(best + step, kSteepest);
+  for (int i = 0; i < kRefinements; ++i) {
+    const double third = (high - low) / 3.0;
+    const double at_low = value(low + third);
+    const double at_high = value(high - third);
+    most = std::max({most, at_low, at_high});
+    (at_low < at_high ? low : high) += at_low < at_high ? third : -third;
+  }
+  return most;
+}
+
+}  // namespace
+
+PlaceSlacks::PlaceSlacks(const Model& model)
+    : model_(model),
+      grid_(PlaceGrid::over(model.pad_face, kNodesPerSide)),
+      profiles_(static_cast<std::size_t>(grid_.count())) {
+  for (int i = 0; i < kTabulated; ++i) {
+    const double angle = kSteepest * (2.0 * i / (kTabulated - 1) - 1.0);
+    const RingFriction friction =
+        ring_friction(model.region.whole(), model.c, std::abs(angle));
+    whole_.push_back({friction.along, std::copysign(friction.moment, angle) / model.c});
+  }
+}
+
+PlaceSlacks::Profile PlaceSlacks::at(const Vec2& p_OF) {
+  const Vec2 at = (p_OF - grid_.low) / grid_.spacing;
+  const int i = std::clamp(static_cast<int>(at.x()), 0, grid_.nx - 2);
+  const int j = std::clamp(static_cast<int>(at.y()), 0, grid_.ny - 2);
+  const double x = std::clamp(at.x() - i, 0.0, 1.0);
+  const double y = std::clamp(at.y() - j, 0.0, 1.0);
+  Profile sum{};
+  const auto add = [&](int column, int row, double share) {
+    if (share == 0.0) return;
+    const Profile& profile = at_node(grid_.index(column, row));
+    for (int k = 0; k < kDirections; ++k) sum[k] += share * profile[k];
+  };
+  add(i, j, (1.0 - x) * (1.0 - y));
+  add(i + 1, j, x * (1.0 - y));
+  add(i, j + 1, (1.0 - x) * y);
+  add(i + 1, j + 1, x * y);
+  return sum;
+}
+
+const PlaceSlacks::Profile& PlaceSlacks::at_node(int node) {
+  std::optional<Profile>& profile = profiles_[static_cast<std::size_t>(node)];
+  if (!profile) profile = looked_at(grid_.place(node));
+  return *profile;
+}
+
+PlaceSlacks::Profile PlaceSlacks::looked_at(const Vec2& p_OF) const {
+  Profile slacks;
+  slacks.fill(-1.0);
+  const std::vector<int> contacts = held_contacts(p_OF);
+  if (contacts.empty()) return slacks;
+  const Asked asked(model_, p_OF, contacts);
+  if (model_.region.is_whole(pose_from_finger(p_OF, 0.0))) {
+    for (int k = 0; k < kDirections; ++k) {
+      const Vec2 e = -towards(FreeDirections::direction(k));
+      slacks[k] = most_over_slopes(kSlopes, [&](double angle) {
+        return asked.slack(motion_along(e, angle), friction_of_whole(angle, e));
+      });
+    }
+    return slacks;
+  }
+  const SpreadPads pads(model_, p_OF, kAnglesOfFinder);
+  if (pads.are_lost()) return slacks;
+  for (int k = 0; k < kDirections; k += kStrideWhereClipped) {
+    const Vec2 e = -towards(FreeDirections::direction(k));
+    slacks[k] = most_over_slopes(kSlopesWhereClipped, [&](double angle) {
+      const Eigen::Vector3d motion = motion_along(e, angle);
+      const PadDrag drag = pads.drag(motion.head<2>(), motion[2] / model_.c);
+      return asked.slack(motion,
+                         {drag.force.x(), drag.force.y(), drag.moment / model_.c});
+    });
+  }
+  for (int k = 1; k < kDirections; k += kStrideWhereClipped) {
+    slacks[k] = 0.5 * (slacks[k - 1] + slacks[(k + 1) % kDirections]);
+  }
+  return slacks;
+}
+
+Eigen::Vector3d PlaceSlacks::friction_of_whole(double angle, const Vec2& e) const {
+  const double at = 0.5 * (angle / kSteepest + 1.0) * (kTabulated - 1);
+  const auto i = static_cast<std::size_t>(std::clamp(at, 0.0, kTabulated - 2.0));
+  const double share = at - static_cast<double>(i);
+  const double along = std::lerp(whole_[i].along, whole_[i + 1].along, share);
+  return {along * e.x(), along * e.y(),
+          std::lerp(whole_[i].moment, whole_[i + 1].moment, share)};
+}
+
+std::vector<int> PlaceSlacks::held_contacts(const Vec2& p_OF) const {
+  std::vector<int> held;
+  if (depth_inside(model_.pad_face, p_OF) < 0.0) return held;
+  for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
+    const PlanarGrasp grasp =
+        grasp_at(model_, pose_from_finger(p_OF, 0.0), model_.contacts[k].g_O);
+    if (grasp.count > 0 && gravity_slack_by_pad_law(model_, grasp) >= -kNearlyHeld) {
+      held.push_back(static_cast<int>(k));
+    }
+  }
+  return held;
+}
+
+}  // namespace prehensile

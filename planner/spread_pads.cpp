@@ -1,0 +1,104 @@
+#include "planner/spread_pads.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "mechanics/sticking.h"
+#include "planner/ring_pads.h"
+
+namespace prehensile {
+namespace {
+
+/// Places along a push are less than this apart, in torque radii.
+constexpr double kApart = 0.125;
+
+}  // namespace
+
+bool has_clipped_discs(const Model& model) {
+  return model.region.is_isotropic() && !model.region.is_fixed_in_hand() &&
+         !can_roll(model.scene.object) && model.F > 0.0 && model.c > 0.0;
+}
+
+SpreadPads::SpreadPads(const Model& model, const Vec2& p_OF, int angles) noexcept {
+  for (Column* column : {&x_, &y_, &share_}) column->resize(column->MaxSizeAtCompileTime);
+  Eigen::Index count = 0;
+  for (int k = 0; k < angles; ++k) {
+    const double theta = 2.0 * std::numbers::pi * k / angles;
+    const PlanarGrasp grasp =
+        grasp_at(model, pose_from_finger(p_OF, theta), Vec2::Zero());
+    if (grasp.count == 0) {
+      count = 0;
+      break;
+    }
+    for (int j = 0; j < grasp.count; ++j) {
+      const Vec2 r = rotated(-theta, Vec2(grasp.x[j], grasp.y[j]));
+      x_[count] = r.x();
+      y_[count] = r.y();
+      share_[count] = grasp.bound[j] / (angles * model.F);
+      ++count;
+    }
+  }
+  for (Column* column : {&x_, &y_, &share_}) column->conservativeResize(count);
+}
+
+PadDrag SpreadPads::drag(const Vec2& velocity, double omega) const noexcept {
+  PadDrag drag;
+  for (Eigen::Index j = 0; j < share_.size(); ++j) {
+    const double vx = velocity.x() - omega * y_[j];
+    const double vy = velocity.y() + omega * x_[j];
+    const double speed = std::sqrt(vx * vx + vy * vy);
+    const double rate = speed > 0.0 ? share_[j] / speed : 0.0;
+    drag.force += Vec2(rate * vx, rate * vy);
+    drag.moment += rate * (x_[j] * vy - y_[j] * vx);
+  }
+  return drag;
+}
+
+double SpreadPads::power(const Vec2& velocity, double omega) const noexcept {
+  double power = 0.0;
+  for (Eigen::Index j = 0; j < share_.size(); ++j) {
+    const double vx = velocity.x() - omega * y_[j];
+    const double vy = velocity.y() + omega * x_[j];
+    power += share_[j] * std::sqrt(vx * vx + vy * vy);
+  }
+  return power;
+}
+
+double spread_slack(const Model& model, const PushContact& contact, const Vec2& p_OF,
+                    const Vec2& velocity, double omega) noexcept {
+  if (velocity.isZero(0.0) && omega == 0.0) return kNan;
+  const SpreadPads pads(model, p_OF);
+  if (pads.are_lost()) return -std::numeric_limits<double>::infinity();
+  const PadDrag drag = pads.drag(velocity, omega);
+  const Vec2 gamma = model.mass / model.F * contact.g_O;
+  const Vec2 force = drag.force - gamma;
+  const double moment = drag.moment - cross(model.p_OCom - p_OF, gamma);
+  const double n = force.dot(contact.n);
+  const double cone = contact.mu * n - std::abs(force.dot(contact.t));
+  const double low = moment + cross(p_OF - contact.b, force);
+  const double high = -moment - cross(p_OF - contact.a, force);
+  return std::min({cone, contact.mu == 0.0 ? n : cone, low / model.c, high / model.c});
+}
+
+double spread_slack_along(const Model& model, const PushContact& contact,
+                          const Vec2& p_OF, const Vec2& e, double travel, double turn,
+                          int most, int* clipped) noexcept {
+  const double whole = ring_slack(model, contact, p_OF, e, travel, turn);
+  const auto slack_at = [&](double share) {
+    const Vec2 at = p_OF - share * travel * e;
+    if (model.region.is_whole(pose_from_finger(at, 0.0))) return whole;
+    if (clipped) ++*clipped;
+    return spread_slack(model, contact, at, travel * e, turn);
+  };
+  const double wanted = std::ceil(travel / (kApart * model.c));
+  const int parts = static_cast<int>(std::min(std::max(wanted, 2.0), 1.0 * most));
+  double slack = std::min(slack_at(0.0), slack_at(1.0));
+  for (int i = 1; i < parts && slack >= -kStickTolerance; ++i) {
+    slack = std::min(slack, slack_at(static_cast<double>(i) / parts));
+  }
+  return slack;
+}
+
+}  // namespace prehensile

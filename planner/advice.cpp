@@ -29,6 +29,7 @@ class Adviser {
       : model_(model), plan_(plan), options_(options) {
     options_.budget = std::min(options.budget, advice.budget);
     options_.nominal_if_needed = false;
+    options_.prove = false;
     options_.time_limit = 0.0;
     wanted_ = options.margin.value_or(margin_of(model, usual_box()));
   }

@@ -80,6 +80,7 @@ class WholePads {
   const Model& model_;
 };
 
+using Stopped = std::function<bool()>;
 using FreeAt = std::function<FreeDirections(const Vec2&)>;
 
 /// What ways of the finger axis from the start cost: the part of them across what sticks.
@@ -87,8 +88,10 @@ class CheatField {
  public:
   /// `both_ends`: a piece of a way costs what it does where that is less, for what sticks
   /// changes much between places; else what it does where it begins.
-  CheatField(const Model& model, int nodes_per_side, FreeAt free_at, bool both_ends)
-      : grid_(PlaceGrid::over(model.pad_face, nodes_per_side)),
+  CheatField(const Model& model, int nodes_per_side, FreeAt free_at, bool both_ends,
+             const Stopped& stopped)
+      : stopped_(stopped),
+        grid_(PlaceGrid::over(model.pad_face, nodes_per_side)),
         free_at_(std::move(free_at)),
         both_ends_(both_ends),
         free_(static_cast<std::size_t>(grid_.count())) {
@@ -104,7 +107,7 @@ class CheatField {
   const PlaceGrid& grid() const { return grid_; }
 
   /// The cost at each node, as far as it is below that of the goal, which receives the
-  /// least of its places: the rest keep that.
+  /// least of its places: the rest keep that. `of_goal` is infinite if it was stopped.
   std::vector<double> costs(const Vec2& start, const std::vector<Vec2>& goals,
                             double freely, double* of_goal) {
     std::vector<double> cost(grid_.count(), kInfinity);
@@ -123,6 +126,10 @@ class CheatField {
     }
     *of_goal = kInfinity;
     while (!open.empty() && open.top().cost < *of_goal) {
+      if (stopped_ && stopped_()) {
+        *of_goal = kInfinity;
+        break;
+      }
       const auto [value, node] = open.top();
       open.pop();
       if (value > cost[node]) continue;
@@ -169,6 +176,7 @@ class CheatField {
     return *free;
   }
 
+  const Stopped& stopped_;
   PlaceGrid grid_;
   FreeAt free_at_;
   bool both_ends_;
@@ -208,11 +216,12 @@ Shown shown_by(const Model& model, CheatField& field, double freely) {
   return {true, {}};
 }
 
-Loops barrier_of_whole_pads(const Model& model) {
+Loops barrier_of_whole_pads(const Model& model, const Stopped& stopped) {
   const WholePads pads(model);
   for (const int nodes : kNodesPerSide) {
     CheatField field(
-        model, nodes, [&](const Vec2& place) { return pads.free_at(place); }, false);
+        model, nodes, [&](const Vec2& place) { return pads.free_at(place); }, false,
+        stopped);
     for (const double freely : kFreely) {
       Shown shown = shown_by(model, field, freely);
       if (!shown.barrier.empty()) return shown.barrier;
@@ -221,7 +230,7 @@ Loops barrier_of_whole_pads(const Model& model) {
   return {};
 }
 
-Loops barrier_of_clipped_discs(const Model& model) {
+Loops barrier_of_clipped_discs(const Model& model, const Stopped& stopped) {
   PlaceSlacks slacks(model);
   for (const int nodes : kNodesPerSideWhereClipped) {
     bool any_separates = false;
@@ -231,7 +240,7 @@ Loops barrier_of_clipped_discs(const Model& model) {
           [&](const Vec2& place) {
             return FreeDirections::above(slacks.at(place), -allowed);
           },
-          true);
+          true, stopped);
       for (const double freely : kFreelyWhereClipped) {
         Shown shown = shown_by(model, field, freely);
         if (!shown.barrier.empty()) return shown.barrier;
@@ -245,14 +254,15 @@ Loops barrier_of_clipped_discs(const Model& model) {
 
 }  // namespace
 
-Loops find_barrier(const Model& model) {
+Loops find_barrier(const Model& model, const Stopped& stopped) {
   const Goal& goal = *model.scene.goal;
   if (!goal.x || !goal.y) return {};
   if (has_clipped_discs(model)) {
-    return LocalLaw::of_whole_discs(model).is_known() ? barrier_of_clipped_discs(model)
-                                                      : Loops{};
+    return LocalLaw::of_whole_discs(model).is_known()
+               ? barrier_of_clipped_discs(model, stopped)
+               : Loops{};
   }
-  return LocalLaw(model).is_known() ? barrier_of_whole_pads(model) : Loops{};
+  return LocalLaw(model).is_known() ? barrier_of_whole_pads(model, stopped) : Loops{};
 }
 
 }  // namespace prehensile

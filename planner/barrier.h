@@ -6,6 +6,8 @@
 /// left is a proof for every angle and every number of turns.
 #pragma once
 
+#include <functional>
+
 #include "planner/plan.h"
 
 namespace prehensile {
@@ -13,8 +15,9 @@ namespace prehensile {
 /// A region that `verify_barrier` accepts, or none. Looked for among the regions whose
 /// border is cheap to reach: a field says by how much a way from the start has to leave
 /// what the laws allow (the part of it across the allowed directions [m]), and its levels
-/// are tried. Only for scenes with laws of runs, and goals that fix the place.
-Loops find_barrier(const Model& model);
+/// are tried. Only for pads with a law at every place (local_law.h, clipped_law.h), and
+/// goals that fix the place. None when `stopped` says so in between.
+Loops find_barrier(const Model& model, const std::function<bool()>& stopped = {});
 
 /// Whether the region holds the start and not the goal, and no push leaves it: `why`
 /// (nullptr: not wanted) says what fails. Each piece of its border on the object is

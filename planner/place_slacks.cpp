@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "mechanics/pad_law.h"
+#include "mechanics/sticking.h"
 #include "planner/ring_pads.h"
 #include "scene/outline.h"
 
@@ -17,7 +18,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kDirections = FreeDirections::kLookedAt;
 
 /// Nodes of the grid over the longer side of the object.
-constexpr int kNodesPerSide = 96;
+constexpr int kNodesPerSide = 72;
 
 /// Where the discs are clipped only every second direction is looked at.
 constexpr int kStrideWhereClipped = 2;
@@ -188,12 +189,16 @@ Eigen::Vector3d PlaceSlacks::friction_of_whole(double angle, const Vec2& e) cons
 std::vector<int> PlaceSlacks::held_contacts(const Vec2& p_OF) const {
   std::vector<int> held;
   if (depth_inside(model_.pad_face, p_OF) < 0.0) return held;
+  const PlanarPose X_HO = pose_from_finger(p_OF, 0.0);
+  const bool whole = model_.region.is_whole(X_HO);
+  const auto slack = [&](const Vec2& g_O) {
+    if (whole) return holding_slack(model_, p_OF, g_O, Margin::none());
+    const PlanarGrasp grasp = grasp_at(model_, X_HO, g_O);
+    return grasp.count > 0 ? gravity_slack_by_pad_law(model_, grasp) : -kInfinity;
+  };
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
-    const PlanarGrasp grasp =
-        grasp_at(model_, pose_from_finger(p_OF, 0.0), model_.contacts[k].g_O);
-    if (grasp.count > 0 && gravity_slack_by_pad_law(model_, grasp) >= -kNearlyHeld) {
+    if (slack(model_.contacts[k].g_O) >= -kNearlyHeld)
       held.push_back(static_cast<int>(k));
-    }
   }
   return held;
 }

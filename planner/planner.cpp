@@ -24,8 +24,10 @@
 namespace prehensile {
 namespace {
 
-/// Of a time limit, for plans with a margin; the rest is for those without.
+/// Of a time limit, for plans with a margin; the rest is for a barrier, half of it at
+/// most, and for plans without.
 constexpr double kShareOfTime = 0.7;
+constexpr double kShareOfProof = 0.15;
 
 /// Of the work budget, for plans that survive the usual margin, and the least it is:
 /// where none is found by then a nominal plan need not wait.
@@ -231,6 +233,23 @@ void set_infeasible(Plan& plan, const Proof& proof) {
   plan.pushes.clear();
 }
 
+/// A barrier, looked for no longer than its share of the time; less is left of `seconds`,
+/// if these are limited.
+Proof look_for_barrier(const Model& model, const PlanOptions& options, const Work& work,
+                       double& seconds) {
+  if (!options.prove) return {};
+  if (work.meter) work.meter->enter("proof");
+  PlanOptions own = options;
+  own.time_limit *= kShareOfProof;
+  const Limits limits(own, work);
+  const auto begin = std::chrono::steady_clock::now();
+  const Proof proof =
+      find_barrier_proof(model, [&] { return limits.stopped() || limits.out_of_time(); });
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
+  if (options.time_limit > 0.0) seconds = std::max(1e-6, seconds - spent.count());
+  return proof;
+}
+
 /// With the margin; if that finds nothing, a barrier is looked for, and if there is none
 /// either, a plan without margin.
 Plan search_with_and_without(const Model& model, const PlanOptions& options, Work& work) {
@@ -252,12 +271,11 @@ Plan search_with_and_without(const Model& model, const PlanOptions& options, Wor
     if (falls_back) keep_as_nominal(model, options, found, plan);
     return plan;
   }
-  if (work.meter) work.meter->enter("proof");
-  const Proof proof = find_barrier_proof(model);
-  if (proof.kind != Proof::Kind::kNone) set_infeasible(plan, proof);
-  if (!falls_back || proof.kind != Proof::Kind::kNone) return plan;
   PlanOptions rest = options;
   rest.time_limit *= 1.0 - kShareOfTime;
+  const Proof proof = look_for_barrier(model, options, work, rest.time_limit);
+  if (proof.kind != Proof::Kind::kNone) set_infeasible(plan, proof);
+  if (!falls_back || proof.kind != Proof::Kind::kNone) return plan;
   work.budget = work.done() + options.budget;
   Plan without = search_and_check(model, rest, Margin::none(), work, found);
   without.instants += plan.instants;

@@ -32,6 +32,7 @@ struct PlanOptions {
   bool nominal_if_needed = true;
   bool improve = false;  ///< search on, with the whole budget, after the first plan;
                          ///< of the others, those that can
+  bool prove = true;     ///< look for a barrier where no plan survives the margin
   bool polish = true;    ///< shorten the plan found with NLopt, where built
   TransitionOptions transition;  ///< of the exact check
   /// Set by a signal handler: give up cleanly, with the best plan found so far.

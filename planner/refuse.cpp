@@ -109,9 +109,9 @@ Proof find_proof(const Model& model) {
   return proof;
 }
 
-Proof find_barrier_proof(const Model& model) {
+Proof find_barrier_proof(const Model& model, const std::function<bool()>& stopped) {
   Proof proof = make_proof(Proof::Kind::kBarrier);
-  proof.region = find_barrier(model);
+  proof.region = find_barrier(model, stopped);
   return proof.region.empty() ? Proof{} : proof;
 }
 

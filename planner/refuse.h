@@ -1,6 +1,8 @@
 /// Finds reasons why no plan can exist.
 #pragma once
 
+#include <functional>
+
 #include "planner/plan.h"
 
 namespace prehensile {
@@ -12,7 +14,8 @@ inline constexpr double kIsotropyError = 0.01;
 /// obstacles milliseconds.
 Proof find_proof(const Model& model);
 
-/// The same by a barrier (barrier.h), which takes some tens of milliseconds.
-Proof find_barrier_proof(const Model& model);
+/// The same by a barrier (barrier.h), which takes some tens of milliseconds, or seconds
+/// where the face clips discs. Given up when `stopped` says so.
+Proof find_barrier_proof(const Model& model, const std::function<bool()>& stopped = {});
 
 }  // namespace prehensile

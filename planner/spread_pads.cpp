@@ -14,6 +14,9 @@ namespace {
 /// Places along a push are less than this apart, in torque radii.
 constexpr double kApart = 0.125;
 
+/// [m^2/s^2] Keeps the friction of a point at rest from being no number: it adds nothing.
+constexpr double kAtRest = 1e-300;
+
 }  // namespace
 
 bool has_clipped_discs(const Model& model) {
@@ -44,26 +47,16 @@ SpreadPads::SpreadPads(const Model& model, const Vec2& p_OF, int angles) noexcep
 }
 
 PadDrag SpreadPads::drag(const Vec2& velocity, double omega) const noexcept {
-  PadDrag drag;
-  for (Eigen::Index j = 0; j < share_.size(); ++j) {
-    const double vx = velocity.x() - omega * y_[j];
-    const double vy = velocity.y() + omega * x_[j];
-    const double speed = std::sqrt(vx * vx + vy * vy);
-    const double rate = speed > 0.0 ? share_[j] / speed : 0.0;
-    drag.force += Vec2(rate * vx, rate * vy);
-    drag.moment += rate * (x_[j] * vy - y_[j] * vx);
-  }
-  return drag;
+  const Column vx = velocity.x() - omega * y_;
+  const Column vy = velocity.y() + omega * x_;
+  const Column rate = share_ / (vx.square() + vy.square() + kAtRest).sqrt();
+  return {{(rate * vx).sum(), (rate * vy).sum()}, (rate * (x_ * vy - y_ * vx)).sum()};
 }
 
 double SpreadPads::power(const Vec2& velocity, double omega) const noexcept {
-  double power = 0.0;
-  for (Eigen::Index j = 0; j < share_.size(); ++j) {
-    const double vx = velocity.x() - omega * y_[j];
-    const double vy = velocity.y() + omega * x_[j];
-    power += share_[j] * std::sqrt(vx * vx + vy * vy);
-  }
-  return power;
+  const auto vx = velocity.x() - omega * y_;
+  const auto vy = velocity.y() + omega * x_;
+  return (share_ * (vx.square() + vy.square()).sqrt()).sum();
 }
 
 double spread_slack(const Model& model, const PushContact& contact, const Vec2& p_OF,

@@ -6,6 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include "mechanics/pad_law.h"
+#include "planner/chain.h"
+#include "planner/exact_check.h"
+#include "planner/goal.h"
 #include "planner/refuse.h"
 #include "problems/random_fixtures.h"
 #include "tests/planner/law_cases.h"
@@ -32,15 +36,15 @@ Scene lift_by_one_wall() {
   return scene;
 }
 
-/// A problem with goals anywhere whose pads are whole everywhere.
-std::optional<Scene> random_problem(std::uint64_t index) {
+/// A problem with goals anywhere.
+std::optional<Scene> random_problem(std::uint64_t index, Overhang overhang) {
   FixtureRange range;
   range.object = index % 2 == 0 ? FixtureObject::kBox : FixtureObject::kConvex;
   range.count = {1.0, 3.0};
   range.goals = GoalsFrom::kRandom;
   auto problem = random_fixture(range, 11, index);
   if (!problem) return std::nullopt;
-  problem->scene.overhang = Overhang::kIgnore;
+  problem->scene.overhang = overhang;
   return problem->scene;
 }
 
@@ -142,6 +146,14 @@ TEST(Barrier, FeasibleProblemsHaveNone) {
 /// Over F: a fall that leaves more than this is none that a check may count on.
 constexpr double kBarelyFalls = 0.01;
 
+/// By how much the grasp holds gravity, the pads as the face leaves them.
+double slack_of_gravity(const Model& model, const PlanarPose& X_HO, const Vec2& g_O) {
+  if (!has_clipped_discs(model)) {
+    return holding_slack(model, finger_in_object(X_HO), g_O, Margin::none());
+  }
+  return gravity_slack_by_pad_law(model, grasp_at(model, X_HO, g_O));
+}
+
 /// Tries to cross a proved border at random places, by the pads themselves.
 int crossings(const Model& model, const Loops& region, int tries, Random& random) {
   int crossed = 0;
@@ -157,16 +169,38 @@ int crossings(const Model& model, const Loops& region, int tries, Random& random
     const Vec2 d = rotated(random.in(-0.5, 0.5) * kPi, out);
     const PushContact& contact =
         model.contacts[random.below(static_cast<int>(model.contacts.size()))];
-    if (holding_slack(model, p_OF, contact.g_O, Margin::none()) < -kBarelyFalls) continue;
+    const PlanarPose X_HO = pose_from_finger(p_OF, random.in(-kPi, kPi));
+    if (slack_of_gravity(model, X_HO, contact.g_O) < -kBarelyFalls) continue;
     const double kappa = random_kappa(random);
     const double advance =
         std::max(contact.n.dot(-d + kappa / model.c * perp(contact.a - p_OF)),
                  contact.n.dot(-d + kappa / model.c * perp(contact.b - p_OF)));
     if (advance < 0.0) continue;
-    const PlanarPose X_HO = pose_from_finger(p_OF, random.in(-kPi, kPi));
     if (slack_of_pads(model, contact, X_HO, -d, kappa) >= 0.0) ++crossed;
   }
   return crossed;
+}
+
+/// As a plan has to: where the face clips the discs, at close places.
+bool sticks_all_along(const SearchModel& search, const Move& move, Work& work) {
+  const Model& model = *search.model;
+  if (!has_clipped_discs(model)) {
+    return move_sticks(search, move.contact, move.from, move.to, work);
+  }
+  return move_holds(search, move, work) &&
+         push_slack(model, grasp_of(move.from, 0.0), push_of(search, move),
+                    Margin::none()) >= 0.0;
+}
+
+/// Pads that are whole everywhere propose what sticks, clipped ones have no closed form.
+KappaSet proposed(const Model& model, const StickContact& contact, const Vec2& p_OF,
+                  const Vec2& e, Random& random) {
+  if (!has_clipped_discs(model)) return sticking_kappas(contact, p_OF, e);
+  KappaSet set;
+  set.count = 1;
+  const double kappa = random_kappa(random);
+  set.intervals[0] = {kappa, kappa};
+  return set;
 }
 
 /// Random plans by hand: pushes in random directions, as far as they stick. Whether one
@@ -181,7 +215,7 @@ bool escapes(const Model& model, const Loops& region, int pushes, Random& random
     const Vec2 e = random.chance(0.7)
                        ? rotated(random.in(-lean, lean), search.contacts[k].stick.n)
                        : random.direction();
-    const KappaSet kappas = sticking_kappas(search.contacts[k].stick, at.p_OF, e);
+    const KappaSet kappas = proposed(model, search.contacts[k].stick, at.p_OF, e, random);
     if (kappas.empty()) continue;
     const auto& interval = kappas.intervals[random.below(kappas.count)];
     const double low = std::max(interval.lo, -30.0);
@@ -190,18 +224,23 @@ bool escapes(const Model& model, const Loops& region, int pushes, Random& random
     const double travel = random.log_in(1e-4, 0.05);
     const double turn = random.in(low, high) * travel / model.c;
     const FlatState to{at.p_OF - travel * e, at.theta + turn};
-    if (!move_sticks(search, k, at, to, work)) continue;
+    if (!sticks_all_along(search, {k, at, to}, work)) continue;
     at = to;
     if (!is_between(region, at.p_OF)) return true;
   }
   return false;
 }
 
-void attack(int problems, int tries, int walks) {
+struct Attack {
+  int problems, tries, walks;
+};
+
+void attack(Overhang overhang, const Attack& size) {
+  const auto [problems, tries, walks] = size;
   Random random(3);
   int proved = 0;
   for (int i = 0; i < problems; ++i) {
-    const auto scene = random_problem(i);
+    const auto scene = random_problem(i, overhang);
     if (!scene) continue;
     const Model model = prepare(*scene);
     const Loops region = find_barrier(model);
@@ -215,9 +254,17 @@ void attack(int problems, int tries, int walks) {
   EXPECT_GT(proved, problems / 6);
 }
 
-TEST(Barrier, NothingCrossesIt) { attack(40, 2000, 20); }
+TEST(Barrier, NothingCrossesIt) { attack(Overhang::kIgnore, {40, 2000, 20}); }
 
-TEST(Barrier, FullNothingCrossesIt) { attack(2000, 20'000, 100); }
+TEST(Barrier, NothingCrossesItWhereTheFaceClips) {
+  attack(Overhang::kClip, {24, 1000, 10});
+}
+
+TEST(Barrier, FullNothingCrossesIt) { attack(Overhang::kIgnore, {2000, 20'000, 100}); }
+
+TEST(Barrier, FullNothingCrossesItWhereTheFaceClips) {
+  attack(Overhang::kClip, {400, 10'000, 50});
+}
 
 }  // namespace
 }  // namespace prehensile

@@ -7,6 +7,7 @@
 
 #include "mechanics/sticking.h"
 #include "planner/ring_pads.h"
+#include "planner/spread_pads.h"
 #include "problems/published_regrasps.h"
 #include "tests/support/random.h"
 
@@ -39,13 +40,17 @@ inline Scene random_law_scene(Random& random) {
 }
 
 /// Slack of an instant that the pads themselves decide, as whole plans are checked: rings
-/// for discs, else their points. Motion (e, kappa / c).
+/// for discs, spread over all angles where the face clips them, else their points. Motion
+/// (e, kappa / c).
 inline double slack_of_pads(const Model& model, const PushContact& contact,
                             const PlanarPose& X_HO, const Vec2& e, double kappa) {
   const double omega = kappa / model.c;
-  if (has_ring_pads(model)) {
-    return ring_slack(model, contact, finger_in_object(X_HO), e, 1.0, omega);
+  const Vec2 p_OF = finger_in_object(X_HO);
+  const bool clips = has_clipped_discs(model);
+  if (has_ring_pads(model) || (clips && model.region.is_whole(X_HO))) {
+    return ring_slack(model, contact, p_OF, e, 1.0, omega);
   }
+  if (clips) return spread_slack(model, contact, p_OF, e, omega);
   return exact_stick_test(model, contact, 0.0, X_HO, e, 1.0, omega, Margin::none()).slack;
 }
 

@@ -258,9 +258,7 @@ Loops find_barrier(const Model& model, const Stopped& stopped) {
   const Goal& goal = *model.scene.goal;
   if (!goal.x || !goal.y) return {};
   if (has_clipped_discs(model)) {
-    return LocalLaw::of_whole_discs(model).is_known()
-               ? barrier_of_clipped_discs(model, stopped)
-               : Loops{};
+    return has_clipped_law(model) ? barrier_of_clipped_discs(model, stopped) : Loops{};
   }
   return LocalLaw(model).is_known() ? barrier_of_whole_pads(model, stopped) : Loops{};
 }

@@ -137,11 +137,11 @@ class BorderLaw {
         clips_(has_clipped_discs(model)),
         whole_(clips_ ? LocalLaw::of_whole_discs(model) : LocalLaw(model)) {}
 
-  bool is_known() const { return whole_.is_known(); }
+  bool is_known() const { return clips_ ? has_clipped_law(model_) : whole_.is_known(); }
 
   bool is_sealed(const Piece& piece, int cuts) const {
-    if (depth_inside(model_.pad_face, piece.middle()) < -0.5 * piece.length())
-      return true;
+    const double depth = depth_inside(model_.pad_face, piece.middle());
+    if (depth < -0.5 * piece.length()) return true;
     const bool whole = is_whole(piece);
     const double c = model_.c;
     if (whole

@@ -76,7 +76,8 @@ class Crossing {
     if (++looked_at_ > kMostTriangles) return true;
     if (!may_advance(corners) || is_denied(corners)) return false;
     const auto side = [&](int i) { return (corners[(i + 1) % 3] - corners[i]).norm(); };
-    const int longest = std::ranges::max({0, 1, 2}, {}, side);
+    int longest = side(0) > side(1) ? 0 : 1;
+    if (side(2) > side(longest)) longest = 2;
     if (side(longest) < kLeastSide) return true;
     const Motion& from = corners[longest];
     const Motion& to = corners[(longest + 1) % 3];
@@ -120,6 +121,12 @@ class Crossing {
 };
 
 }  // namespace
+
+bool has_clipped_law(const Model& model) {
+  return has_clipped_discs(model) &&
+         std::ranges::none_of(model.contacts, &PushContact::is_point) &&
+         LocalLaw::of_whole_discs(model).is_known();
+}
 
 ClippedLaw::ClippedLaw(const Model& model, const PlaceSpan& line, const Vec2& out)
     : model_(model), line_(line), out_(out), at_a_(model, line.a), at_b_(model, line.b) {}

@@ -16,6 +16,10 @@
 
 namespace prehensile {
 
+/// Whether laws of clipped discs hold for every push of the scene: not for those by
+/// points, about which the object turns as the points of the pads let it.
+bool has_clipped_law(const Model& model);
+
 class ClippedLaw {
  public:
   /// Of motions across `line`, which has to be short against the discs, towards `out`.

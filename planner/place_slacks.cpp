@@ -54,12 +54,13 @@ class Asked {
 
   double slack(const Eigen::Vector3d& motion, const Eigen::Vector3d& friction) const {
     double most = -kInfinity;
-    for (const auto& [contact, demands] : asked_) {
+    for (const Of& asked : asked_) {
+      const PushContact& contact = *asked.contact;
       const auto advance = [&](const Vec2& end) {
-        return advance_at(end, *contact, p_OF_, model_.c, motion);
+        return advance_at(end, contact, p_OF_, model_.c, motion);
       };
-      if (std::max(advance(contact->a), advance(contact->b)) < 0.0) continue;
-      most = std::max(most, demands.slack(friction));
+      if (std::max(advance(contact.a), advance(contact.b)) < 0.0) continue;
+      most = std::max(most, asked.demands.slack(friction));
     }
     return most;
   }
@@ -197,8 +198,8 @@ std::vector<int> PlaceSlacks::held_contacts(const Vec2& p_OF) const {
     return grasp.count > 0 ? gravity_slack_by_pad_law(model_, grasp) : -kInfinity;
   };
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
-    if (slack(model_.contacts[k].g_O) >= -kNearlyHeld)
-      held.push_back(static_cast<int>(k));
+    const bool is_held = slack(model_.contacts[k].g_O) >= -kNearlyHeld;
+    if (is_held) held.push_back(static_cast<int>(k));
   }
   return held;
 }

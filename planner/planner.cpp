@@ -233,8 +233,8 @@ void set_infeasible(Plan& plan, const Proof& proof) {
   plan.pushes.clear();
 }
 
-/// A barrier, looked for no longer than its share of the time; less is left of `seconds`,
-/// if these are limited.
+/// A barrier, looked for no longer than its share of a time limit; of `seconds` less is
+/// left.
 Proof look_for_barrier(const Model& model, const PlanOptions& options, const Work& work,
                        double& seconds) {
   if (!options.prove) return {};
@@ -246,7 +246,7 @@ Proof look_for_barrier(const Model& model, const PlanOptions& options, const Wor
   const Proof proof =
       find_barrier_proof(model, [&] { return limits.stopped() || limits.out_of_time(); });
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-  if (options.time_limit > 0.0) seconds = std::max(1e-6, seconds - spent.count());
+  if (seconds > 0.0) seconds = std::max(1e-6, seconds - spent.count());
   return proof;
 }
 

@@ -81,6 +81,16 @@ TEST(ClippedLaw, WhatItDeniesNoInstantDoes) { attack(60, 200); }
 
 TEST(ClippedLaw, FullWhatItDeniesNoInstantDoes) { attack(3000, 2000); }
 
+TEST(ClippedLaw, IsOfLinesThatPushClippedDiscs) {
+  Scene scene = clipped_square();
+  EXPECT_TRUE(has_clipped_law(prepare(scene)));
+  scene.pushers[0].feature = PointFeature{};
+  EXPECT_FALSE(has_clipped_law(prepare(scene)));
+  scene = clipped_square();
+  scene.overhang = Overhang::kIgnore;
+  EXPECT_FALSE(has_clipped_law(prepare(scene)));
+}
+
 /// The pushed object moves away from the wall, so the finger axis towards it.
 TEST(ClippedLaw, OneWallPushesOneWay) {
   Scene scene = clipped_square();

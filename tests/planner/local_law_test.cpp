@@ -128,5 +128,28 @@ TEST(LocalLaw, IsNotKnownOfPadsThatChange) {
   EXPECT_FALSE(LocalLaw(prepare(scene)).is_known());
 }
 
+/// Where discs that overhang elsewhere are whole their law is that of discs that count
+/// whole everywhere.
+TEST(LocalLaw, OfWholeDiscsKnowsNoOverhang) {
+  Random random(8);
+  int may = 0;
+  for (int i = 0; i < 300; ++i) {
+    Scene scene = published_square(random.below(50));
+    const Model ignoring = prepare(scene);
+    scene.overhang = Overhang::kClip;
+    const Model clipping = prepare(scene);
+    EXPECT_FALSE(LocalLaw(clipping).is_known());
+    const LocalLaw law = LocalLaw::of_whole_discs(clipping);
+    ASSERT_TRUE(law.is_known());
+    const int k = random.below(static_cast<int>(clipping.contacts.size()));
+    const PlaceSpan places = around(random.in_box(0.02, 0.02), random);
+    const DirectionSpan directions = around_direction(random.direction(), random);
+    const bool moves = law.may_move(k, places, directions);
+    EXPECT_EQ(moves, LocalLaw(ignoring).may_move(k, places, directions));
+    may += moves ? 1 : 0;
+  }
+  EXPECT_GT(may, 30);
+}
+
 }  // namespace
 }  // namespace prehensile

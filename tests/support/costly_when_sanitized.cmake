@@ -4,7 +4,9 @@ set(costly_when_sanitized
   Advice.IsTheSameEveryTime
   Advice.NamesOnlyChangesThatWork
   Advice.SaysWhatANominalPlanLacks
+  Barrier.NothingCrossesItWhereTheFaceClips
   BlockedHand.NothingBeginsOrEndsThere
+  ClippedLaw.WhatItDeniesNoInstantDoes
   MeetEnd.DividesWhatOnePushDoesNotFollow
   OmplDeterminism.SameSeedSamePlanInFreshProcesses
   OmplDeterminism.SeedsMatterToRandomPlannersOnly

@@ -18,6 +18,7 @@
 #include "planner/refuse.h"
 #include "planner/replay.h"
 #include "planner/run_search.h"
+#include "planner/spread_pads.h"
 #include "planner/word_plans.h"
 #include "primitives/uncertainty.h"
 
@@ -27,7 +28,6 @@ namespace {
 /// Of a time limit, for plans with a margin; the rest is for a barrier, half of it at
 /// most, and for plans without.
 constexpr double kShareOfTime = 0.7;
-constexpr double kShareOfProof = 0.15;
 
 /// Of the work budget, for plans that survive the usual margin, and the least it is:
 /// where none is found by then a nominal plan need not wait.
@@ -233,25 +233,8 @@ void set_infeasible(Plan& plan, const Proof& proof) {
   plan.pushes.clear();
 }
 
-/// A barrier, looked for no longer than its share of a time limit; of `seconds` less is
-/// left.
-Proof look_for_barrier(const Model& model, const PlanOptions& options, const Work& work,
-                       double& seconds) {
-  if (!options.prove) return {};
-  if (work.meter) work.meter->enter("proof");
-  PlanOptions own = options;
-  own.time_limit *= kShareOfProof;
-  const Limits limits(own, work);
-  const auto begin = std::chrono::steady_clock::now();
-  const Proof proof =
-      find_barrier_proof(model, [&] { return limits.stopped() || limits.out_of_time(); });
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-  if (seconds > 0.0) seconds = std::max(1e-6, seconds - spent.count());
-  return proof;
-}
-
 /// With the margin; if that finds nothing, a barrier is looked for, and if there is none
-/// either, a plan without margin.
+/// either, a plan without margin; where a barrier takes longer than that, the plan first.
 Plan search_with_and_without(const Model& model, const PlanOptions& options, Work& work) {
   const Margin margin = options.margin.value_or(margin_of(model, usual_box()));
   const bool nominal = margin.is_none();
@@ -273,15 +256,20 @@ Plan search_with_and_without(const Model& model, const PlanOptions& options, Wor
   }
   PlanOptions rest = options;
   rest.time_limit *= 1.0 - kShareOfTime;
-  const Proof proof = look_for_barrier(model, options, work, rest.time_limit);
-  if (proof.kind != Proof::Kind::kNone) set_infeasible(plan, proof);
-  if (!falls_back || proof.kind != Proof::Kind::kNone) return plan;
+  const bool proves_last = falls_back && has_clipped_discs(model);
+  const auto is_refuted = [&] {
+    const Proof proof = look_for_barrier(model, options, work, rest.time_limit);
+    if (proof.kind != Proof::Kind::kNone) set_infeasible(plan, proof);
+    return proof.kind != Proof::Kind::kNone;
+  };
+  if ((!proves_last && is_refuted()) || !falls_back) return plan;
   work.budget = work.done() + options.budget;
   Plan without = search_and_check(model, rest, Margin::none(), work, found);
   without.instants += plan.instants;
   if (!without.usable()) {
     plan.instants = without.instants;
     plan.message = "with a margin and without: " + without.message;
+    if (proves_last && !Limits(options, work).stopped()) is_refuted();
     return plan;
   }
   without.promise = Promise::kNominalOnly;

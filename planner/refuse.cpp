@@ -1,10 +1,12 @@
 #include "planner/refuse.h"
 
+#include <algorithm>
 #include <array>
+#include <chrono>
 
 #include "mechanics/pad_law.h"
 #include "planner/barrier.h"
-#include "planner/planner.h"
+#include "planner/limits.h"
 
 namespace prehensile {
 namespace {
@@ -113,6 +115,22 @@ Proof find_barrier_proof(const Model& model, const std::function<bool()>& stoppe
   Proof proof = make_proof(Proof::Kind::kBarrier);
   proof.region = find_barrier(model, stopped);
   return proof.region.empty() ? Proof{} : proof;
+}
+
+Proof look_for_barrier(const Model& model, const PlanOptions& options, const Work& work,
+                       double& seconds) {
+  constexpr double kShareOfTime = 0.15;
+  if (!options.prove) return {};
+  if (work.meter) work.meter->enter("proof");
+  PlanOptions own = options;
+  own.time_limit *= kShareOfTime;
+  const Limits limits(own, work);
+  const auto begin = std::chrono::steady_clock::now();
+  const Proof proof =
+      find_barrier_proof(model, [&] { return limits.stopped() || limits.out_of_time(); });
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
+  if (seconds > 0.0) seconds = std::max(1e-6, seconds - spent.count());
+  return proof;
 }
 
 }  // namespace prehensile

@@ -3,7 +3,8 @@
 
 #include <functional>
 
-#include "planner/plan.h"
+#include "planner/planner.h"
+#include "planner/steering.h"
 
 namespace prehensile {
 
@@ -17,5 +18,10 @@ Proof find_proof(const Model& model);
 /// The same by a barrier (barrier.h), which takes some tens of milliseconds, or seconds
 /// where the face clips discs. Given up when `stopped` says so.
 Proof find_barrier_proof(const Model& model, const std::function<bool()>& stopped = {});
+
+/// The same if `options` ask for it, no longer than its share of a time limit, which is
+/// taken from the `seconds` left of that.
+Proof look_for_barrier(const Model& model, const PlanOptions& options, const Work& work,
+                       double& seconds);
 
 }  // namespace prehensile

@@ -258,7 +258,7 @@ void attack(Overhang overhang, const Attack& size) {
 TEST(Barrier, NothingCrossesIt) { attack(Overhang::kIgnore, {40, 2000, 20}); }
 
 TEST(Barrier, NothingCrossesItWhereTheFaceClips) {
-  attack(Overhang::kClip, {12, 1000, 10});
+  attack(Overhang::kClip, {24, 1000, 10});
 }
 
 TEST(Barrier, FullNothingCrossesIt) { attack(Overhang::kIgnore, {2000, 20'000, 100}); }

@@ -124,8 +124,9 @@ class Crossing {
 
 bool has_clipped_law(const Model& model) {
   return has_clipped_discs(model) &&
-         std::ranges::none_of(model.contacts, &PushContact::is_point) &&
-         LocalLaw::of_whole_discs(model).is_known();
+         std::ranges::none_of(model.contacts, [&](const PushContact& contact) {
+           return contact.is_point || model.needs_space(contact);
+         });
 }
 
 ClippedLaw::ClippedLaw(const Model& model, const PlaceSpan& line, const Vec2& out)

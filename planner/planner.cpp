@@ -25,9 +25,10 @@
 namespace prehensile {
 namespace {
 
-/// Of a time limit, for plans with a margin; the rest is for a barrier, half of it at
-/// most, and for plans without.
+/// Of a time limit, for plans with a margin and for a barrier; the rest is for plans
+/// without.
 constexpr double kShareOfTime = 0.7;
+constexpr double kShareOfProof = 0.15;
 
 /// Of the work budget, for plans that survive the usual margin, and the least it is:
 /// where none is found by then a nominal plan need not wait.
@@ -240,8 +241,8 @@ Plan search_with_and_without(const Model& model, const PlanOptions& options, Wor
   const bool nominal = margin.is_none();
   const bool falls_back = options.nominal_if_needed && !nominal;
   PlanOptions robust = options;
+  robust.time_limit *= falls_back ? kShareOfTime : 1.0 - kShareOfProof;
   if (falls_back) {
-    robust.time_limit *= kShareOfTime;
     work.budget = work.done() + work_with_margin(options);
   }
   Found found;
@@ -254,15 +255,17 @@ Plan search_with_and_without(const Model& model, const PlanOptions& options, Wor
     if (falls_back) keep_as_nominal(model, options, found, plan);
     return plan;
   }
-  PlanOptions rest = options;
-  rest.time_limit *= 1.0 - kShareOfTime;
+  PlanOptions of_proof = options;
+  of_proof.time_limit *= kShareOfProof;
   const bool proves_last = falls_back && has_clipped_discs(model);
   const auto is_refuted = [&] {
-    const Proof proof = look_for_barrier(model, options, work, rest.time_limit);
+    const Proof proof = look_for_barrier(model, of_proof, work);
     if (proof.kind != Proof::Kind::kNone) set_infeasible(plan, proof);
     return proof.kind != Proof::Kind::kNone;
   };
   if ((!proves_last && is_refuted()) || !falls_back) return plan;
+  PlanOptions rest = options;
+  rest.time_limit *= 1.0 - kShareOfTime - kShareOfProof;
   work.budget = work.done() + options.budget;
   Plan without = search_and_check(model, rest, Margin::none(), work, found);
   without.instants += plan.instants;

@@ -1,8 +1,6 @@
 #include "planner/refuse.h"
 
-#include <algorithm>
 #include <array>
-#include <chrono>
 
 #include "mechanics/pad_law.h"
 #include "planner/barrier.h"
@@ -117,20 +115,12 @@ Proof find_barrier_proof(const Model& model, const std::function<bool()>& stoppe
   return proof.region.empty() ? Proof{} : proof;
 }
 
-Proof look_for_barrier(const Model& model, const PlanOptions& options, const Work& work,
-                       double& seconds) {
-  constexpr double kShareOfTime = 0.15;
+Proof look_for_barrier(const Model& model, const PlanOptions& options, const Work& work) {
   if (!options.prove) return {};
   if (work.meter) work.meter->enter("proof");
-  PlanOptions own = options;
-  own.time_limit *= kShareOfTime;
-  const Limits limits(own, work);
-  const auto begin = std::chrono::steady_clock::now();
-  const Proof proof =
-      find_barrier_proof(model, [&] { return limits.stopped() || limits.out_of_time(); });
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-  if (seconds > 0.0) seconds = std::max(1e-6, seconds - spent.count());
-  return proof;
+  const Limits limits(options, work);
+  return find_barrier_proof(model,
+                            [&] { return limits.stopped() || limits.out_of_time(); });
 }
 
 }  // namespace prehensile

@@ -19,9 +19,7 @@ Proof find_proof(const Model& model);
 /// where the face clips discs. Given up when `stopped` says so.
 Proof find_barrier_proof(const Model& model, const std::function<bool()>& stopped = {});
 
-/// The same if `options` ask for it, no longer than its share of a time limit, which is
-/// taken from the `seconds` left of that.
-Proof look_for_barrier(const Model& model, const PlanOptions& options, const Work& work,
-                       double& seconds);
+/// The same if `options` ask for it, within their time limit.
+Proof look_for_barrier(const Model& model, const PlanOptions& options, const Work& work);
 
 }  // namespace prehensile

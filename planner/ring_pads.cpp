@@ -65,21 +65,26 @@ RingFriction ring_friction(const ContactPoints& points, double c, double angle) 
   return friction;
 }
 
+double slack_of_friction(const Model& model, const PushContact& contact, const Vec2& p_OF,
+                         const PadDrag& friction) noexcept {
+  const Vec2 gamma = model.mass / model.F * contact.g_O;
+  const Vec2 force = friction.force - gamma;
+  const double moment = friction.moment - cross(model.p_OCom - p_OF, gamma);
+  const double n = force.dot(contact.n);
+  const double cone = contact.mu * n - std::abs(force.dot(contact.t));
+  const double low = moment + cross(p_OF - contact.b, force);
+  const double high = -moment - cross(p_OF - contact.a, force);
+  return std::min({cone, contact.mu == 0.0 ? n : cone, low / model.c, high / model.c});
+}
+
 double ring_slack(const Model& model, const PushContact& contact, const Vec2& p_OF,
                   const Vec2& e, double travel, double turn) noexcept {
   const double spin = model.c * std::abs(turn);
   if (travel == 0.0 && spin == 0.0) return kNan;
   const RingFriction friction =
       ring_friction(model.region.whole(), model.c, std::atan2(spin, travel));
-  const Vec2 gamma = model.mass / model.F * contact.g_O;
-  const Vec2 force = friction.along * e - gamma;
-  const double moment =
-      std::copysign(friction.moment, turn) - cross(model.p_OCom - p_OF, gamma);
-  const double n = force.dot(contact.n);
-  const double cone = contact.mu * n - std::abs(force.dot(contact.t));
-  const double low = moment + cross(p_OF - contact.b, force);
-  const double high = -moment - cross(p_OF - contact.a, force);
-  return std::min({cone, contact.mu == 0.0 ? n : cone, low / model.c, high / model.c});
+  return slack_of_friction(model, contact, p_OF,
+                           {friction.along * e, std::copysign(friction.moment, turn)});
 }
 
 }  // namespace prehensile

@@ -12,6 +12,7 @@
 #pragma once
 
 #include "mechanics/model.h"
+#include "mechanics/pad_drag.h"
 
 namespace prehensile {
 
@@ -27,6 +28,12 @@ struct RingFriction {
   double drag = 0.0;
 };
 RingFriction ring_friction(const ContactPoints& points, double c, double angle);
+
+/// Least slack of a sticking instant with the finger axis at p_OF, of friction over F
+/// that the object overcomes (force in O, moment [m] about the finger axis): of the
+/// friction cone over F, and of the moments about the ends of the face over F c. No heap.
+double slack_of_friction(const Model& model, const PushContact& contact, const Vec2& p_OF,
+                         const PadDrag& friction) noexcept;
 
 /// Least slack of a sticking push with ring pads, all along it: of the friction cone over
 /// F, and of the moments about the ends of the face over F c. The finger axis begins at

@@ -64,15 +64,7 @@ double spread_slack(const Model& model, const PushContact& contact, const Vec2& 
   if (velocity.isZero(0.0) && omega == 0.0) return kNan;
   const SpreadPads pads(model, p_OF);
   if (pads.are_lost()) return -std::numeric_limits<double>::infinity();
-  const PadDrag drag = pads.drag(velocity, omega);
-  const Vec2 gamma = model.mass / model.F * contact.g_O;
-  const Vec2 force = drag.force - gamma;
-  const double moment = drag.moment - cross(model.p_OCom - p_OF, gamma);
-  const double n = force.dot(contact.n);
-  const double cone = contact.mu * n - std::abs(force.dot(contact.t));
-  const double low = moment + cross(p_OF - contact.b, force);
-  const double high = -moment - cross(p_OF - contact.a, force);
-  return std::min({cone, contact.mu == 0.0 ? n : cone, low / model.c, high / model.c});
+  return slack_of_friction(model, contact, p_OF, pads.drag(velocity, omega));
 }
 
 double spread_slack_along(const Model& model, const PushContact& contact,

@@ -43,7 +43,7 @@ void set_margin(const Options& options, const Model& model, PlanOptions& plan) {
     plan.margin = margin_of(model, box_of(model.scene));
     plan.promise = Promise::kScene;
   } else {
-    plan.margin = margin_of(model, usual_box()).scaled(options.margin);
+    plan.margin = usual_margin(model).scaled(options.margin);
   }
   plan.margin->weightless = options.weightless;
 }

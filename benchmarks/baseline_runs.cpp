@@ -102,7 +102,7 @@ bool passes(const Model& model, const PlanOptions& options, Plan& plan) {
 
 Run run_planner(const Problem& problem, const PlanOptions& options, bool robust) {
   const Model model = prepare(problem.scene);
-  const Margin margin = robust ? margin_of(model, usual_box()) : Margin::none();
+  const Margin margin = robust ? usual_margin(model) : Margin::none();
   const SearchModel search_model = prepare_search(model, margin);
   Run run{problem.kind, problem.scene.name, options.planner, options.seed, {}};
   if (find_planner(options.planner)->family == PlannerFamily::kOwn) {

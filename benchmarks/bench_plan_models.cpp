@@ -4,7 +4,8 @@
 /// Each pair names what the planner assumes and what the pads are: soft points (the
 /// ellipsoid) or discs of the same torque radius for discs and for pads of other shapes,
 /// whole pads for pads that the face clips, evenly loaded discs for Hertzian ones. The
-/// plan is done push by push by the exact mechanics of what the pads are. *Planned*: a
+/// plan is done push by push by the exact mechanics of what the pads are, stood for by as
+/// many points as there can be (plans are made with the usual number). *Planned*: a
 /// plan was found with what is assumed; *sticks*: it is done to its end without slip;
 /// *reaches*: and ends at the goal. Beside it stands the plan made with the true model.
 /// Times are CPU times of the thread, of all of planning.
@@ -30,6 +31,10 @@ namespace {
 
 constexpr double kSlip = 1e-5;  // [m] that counts
 constexpr std::uint64_t kSeed = 1;
+
+/// Of the pads that do the plans: so many points that the friction of discs hardly
+/// depends on their angle.
+constexpr PrepareOptions kFinest{.points_per_pad = 64};
 
 struct Options {
   std::string set = "wide";
@@ -93,7 +98,7 @@ struct Timed {
 
 Timed planned(const Model& model, bool robust) {
   PlanOptions options;
-  options.margin = robust ? margin_of(model, usual_box()) : Margin::none();
+  options.margin = robust ? usual_margin(model) : Margin::none();
   options.nominal_if_needed = false;
   Timed timed;
   const double start = thread_time_us();
@@ -134,8 +139,8 @@ void run_problem(const Scene& scene, bool robust, std::vector<Run>& runs) {
   std::map<std::string, Model> models;
   std::map<std::string, Timed> plans;
   for (const auto& [name, with_model] : models_of(scene)) {
-    const Model& model = models.emplace(name, prepare(with_model)).first->second;
-    plans.emplace(name, planned(model, robust));
+    plans.emplace(name, planned(prepare(with_model), robust));
+    models.emplace(name, prepare(with_model, kFinest));
   }
   for (const Pair& pair : all_pairs()) {
     runs.push_back(

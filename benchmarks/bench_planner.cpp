@@ -168,8 +168,7 @@ Run run_planner(const Problem& problem, const std::string& planner, std::uint64_
   if (!is_own(planner)) wanted.time_limit = 1e-3 * options.time_ms;
   Run run{.kind = problem.kind, .problem = scene.name, .planner = planner, .seed = seed};
   const int batches = is_own(planner) ? 3 : 1;
-  wanted.margin =
-      options.plans == "robust" ? margin_of(model, usual_box()) : Margin::none();
+  wanted.margin = options.plans == "robust" ? usual_margin(model) : Margin::none();
   wanted.margin->weightless = options.plans == "weightless";
   wanted.nominal_if_needed = options.plans != "weightless";
   const SearchModel search = prepare_search(model, *wanted.margin);

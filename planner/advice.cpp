@@ -31,7 +31,7 @@ class Adviser {
     options_.nominal_if_needed = false;
     options_.prove = false;
     options_.time_limit = 0.0;
-    wanted_ = options.margin.value_or(margin_of(model, usual_box()));
+    wanted_ = options.margin.value_or(usual_margin(model));
   }
 
   std::vector<ProposedChange> changes() {

@@ -237,7 +237,7 @@ void set_infeasible(Plan& plan, const Proof& proof) {
 /// With the margin; if that finds nothing, a barrier is looked for, and if there is none
 /// either, a plan without margin; where a barrier takes longer than that, the plan first.
 Plan search_with_and_without(const Model& model, const PlanOptions& options, Work& work) {
-  const Margin margin = options.margin.value_or(margin_of(model, usual_box()));
+  const Margin margin = options.margin.value_or(usual_margin(model));
   const bool nominal = margin.is_none();
   const bool falls_back = options.nominal_if_needed && !nominal;
   PlanOptions robust = options;
@@ -312,7 +312,7 @@ Plan decide(const Model& model, const PlanOptions& options) {
   Plan plan;
   plan.start = model.scene.start;
   plan.goal = model.scene.start;
-  plan.margin = options.margin.value_or(margin_of(model, usual_box()));
+  plan.margin = options.margin.value_or(usual_margin(model));
   plan.promise = plan.margin.is_none() ? Promise::kNominal : options.promise;
   plan.planner = options.planner;
   plan.seed = options.seed;

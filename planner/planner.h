@@ -24,7 +24,7 @@ struct PlanOptions {
   std::int64_t budget =
       20'000'000;           ///< stick tests, and propagations of the other planners
   double time_limit = 0.0;  ///< [s]; 0: none. The only way in which the clock decides
-  /// Plan for this box, doubled once if the exact check fails; unset: for usual_box().
+  /// Plan for this box, doubled once if the exact check fails; unset: usual_margin().
   std::optional<Margin> margin;
   Promise promise = Promise::kMargin;  ///< what the margin is, for the plan's record
   /// Where no plan survives the margin, look for one that has none and say so. The usual

@@ -110,6 +110,16 @@ std::optional<std::vector<Move>> search_within_tolerance(const SearchModel& sear
   return moves_of(search, from, found->chain);
 }
 
+/// Where no way leads to the goal itself: to places that are off it by up to its
+/// tolerances.
+bool plan_beside_goal(const SearchModel& search, const FlatState& from, const Goal& goal,
+                      double bound, const Limits& limits, Work& work, Plan& plan) {
+  const GoalPlaces places = tolerated_places(*search.model, goal, from);
+  if (places.count == 0) return false;
+  const auto found = search_chains(search, from, places, bound, limits, work);
+  return plan_with_real_pads(search, from, places, found, limits, work, plan);
+}
+
 /// Fills the pushes in the pad plane; false if none were found.
 bool plan_in_plane(const SearchModel& search, const Grasp& start, const Goal& goal,
                    const Limits& limits, Work& work, Plan& plan) {
@@ -133,7 +143,8 @@ bool plan_in_plane(const SearchModel& search, const Grasp& start, const Goal& go
     append_chain(search, from, found->chain, plan);
     return true;
   }
-  return plan_with_real_pads(search, from, goals, found, limits, work, plan);
+  return plan_with_real_pads(search, from, goals, found, limits, work, plan) ||
+         plan_beside_goal(search, from, goal, bound, limits, work, plan);
 }
 
 void say_undecided(const Limits& limits, Plan& plan) {

@@ -50,6 +50,9 @@ double force_margin(const Model& model, const UncertaintyBox& box) {
   return std::max({0.0, most / nominal - 1.0, 1.0 - least / nominal});
 }
 
+/// Of the torque radius of soft points.
+constexpr double kOfEllipsoid = 0.20;
+
 }  // namespace
 
 Margin margin_of(const Model& model, const UncertaintyBox& box) {
@@ -67,6 +70,12 @@ Margin margin_of(const Model& model, const UncertaintyBox& box) {
   margin.grasp = std::hypot(box[Unknown::kGraspX], box[Unknown::kGraspY]);
   margin.tilt = box[Unknown::kDirection] + box[Unknown::kTilt];
   return margin;
+}
+
+Margin usual_margin(const Model& model) {
+  UncertaintyBox box = usual_box();
+  if (model.has_soft_points()) box[Unknown::kTorqueRadius] = kOfEllipsoid;
+  return margin_of(model, box);
 }
 
 }  // namespace prehensile

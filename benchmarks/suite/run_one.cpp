@@ -159,8 +159,8 @@ PlanOptions plan_options(const PlannerEntry& entry, const Model& model, int seed
   options.seed = static_cast<std::uint64_t>(seed);
   options.budget = static_cast<std::int64_t>(entry.budget);
   options.time_limit = entry.time_limit;
-  options.margin = entry.margin > 0.0 ? margin_of(model, usual_box()).scaled(entry.margin)
-                                      : Margin::none();
+  options.margin =
+      entry.margin > 0.0 ? usual_margin(model).scaled(entry.margin) : Margin::none();
   options.improve = entry.until == SearchUntil::kBudget;
   options.polish = entry.polish;
   return options;

@@ -7,6 +7,7 @@
 
 #include "planner/bounds.h"
 #include "planner/exact_check.h"
+#include "planner/goal.h"
 #include "planner/limits.h"
 #include "planner/polish.h"
 #include "planner/push_search.h"
@@ -31,7 +32,7 @@ constexpr double kPi = std::numbers::pi;
 double seconds_of_search(const Model& model) {
   const PlanOptions options;
   const auto begin = std::chrono::steady_clock::now();
-  const SearchModel search = prepare_search(model, margin_of(model, usual_box()));
+  const SearchModel search = prepare_search(model, usual_margin(model));
   Work work{.budget = options.budget};
   search_pushes(search, model.scene.start, *model.scene.goal, options, work);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
@@ -340,6 +341,35 @@ TEST(Planner, PlansOfManyTurnsReplay) {
     EXPECT_TRUE(replay(model, plan).agrees) << index;
   }
   EXPECT_GE(many, 3);
+}
+
+/// One wall, and goals of which it reaches the tolerances only: over whole discs and
+/// where the face clips them.
+TEST(Planner, EndsBesideGoalsThatNoWayLeadsTo) {
+  FixtureRange range;
+  range.object = FixtureObject::kConvex;
+  range.count = {1.0, 1.0};
+  range.goals = GoalsFrom::kRandom;
+  FixtureRange concave = range;
+  concave.object = FixtureObject::kConcave;
+  concave.count = FixtureRange{}.count;
+  for (const auto& [of, index] : {std::pair{range, 45}, {concave, 113}}) {
+    const auto problem = random_fixture(of, 1, static_cast<std::uint64_t>(index));
+    ASSERT_TRUE(problem) << index;
+    const Model model = prepare(problem->scene);
+    PlanOptions options;
+    options.margin = Margin::none();
+    const Plan plan = plan_regrasp(model, options);
+    ASSERT_TRUE(plan.usable()) << index << ": " << plan.message;
+    EXPECT_TRUE(replay(model, plan).agrees) << index;
+    const Goal& goal = *model.scene.goal;
+    EXPECT_TRUE(reaches(goal, plan.goal)) << index;
+    const GoalError error = goal_error(goal, plan.goal);
+    EXPECT_GT(std::max(std::max(error.x, error.y) / goal.position_tolerance,
+                       error.theta / goal.angle_tolerance),
+              0.5)
+        << index;
+  }
 }
 
 TEST(Planner, RollsACanWhereTheGoalAsksForIt) {

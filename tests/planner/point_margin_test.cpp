@@ -49,7 +49,7 @@ TEST(PointMargin, RefusesPlansThatDoNot) {
     Plan plan = plan_regrasp(*model, options);
     if (!plan.usable()) continue;
     EXPECT_EQ(point_margin_fault(*model, plan, {}), "") << i;
-    plan.margin = margin_of(*model, usual_box());
+    plan.margin = usual_margin(*model);
     const std::string fault = point_margin_fault(*model, plan, {});
     if (fault.empty()) continue;
     ++refused;

@@ -113,6 +113,43 @@ TEST(RobustPlan, FullSticksEverywhereInAWiderBox) {
   EXPECT_EQ(random.slips, 0);
 }
 
+/// Plans made over the ellipsoid, done by discs of the same torque radius that so many
+/// points stand for that they are even.
+void do_by_discs(RegraspRange range, int problems, double at_least) {
+  int plans = 0;
+  int done = 0;
+  for (int i = 0; i < problems; ++i) {
+    const auto index = static_cast<std::uint64_t>(i / 4);
+    const Scene discs = random_among_walls(i % 2 == 0, range, i % 4 < 2, 1, index);
+    PlanOptions options;
+    options.nominal_if_needed = false;
+    const Plan plan = plan_regrasp(prepare(with_soft_points(discs)), options);
+    if (!plan.usable()) continue;
+    ++plans;
+    const Model model = prepare(discs, {.points_per_pad = 64});
+    Grasp grasp = plan.start;
+    bool sticks = true;
+    for (const PlannedPush& push : plan.pushes) {
+      const Transition moved = apply(model, grasp, push.push);
+      sticks = sticks && moved.completed() && moved.slipped <= 1e-5;
+      grasp = moved.end;
+    }
+    done += sticks && reaches(*discs.goal, grasp) ? 1 : 0;
+  }
+  std::printf("%d plans over soft points, %d done by discs\n", plans, done);
+  EXPECT_GE(plans, 3 * problems / 4);
+  EXPECT_GE(done, at_least * plans);
+}
+
+TEST(RobustPlan, MadeOverSoftPointsHoldsOverDiscs) {
+  do_by_discs(RegraspRange::kPublished, 60, 1.0);
+}
+
+TEST(RobustPlan, FullMadeOverSoftPointsHoldsOverDiscs) {
+  do_by_discs(RegraspRange::kPublished, 600, 0.99);
+  do_by_discs(RegraspRange::kWide, 400, 0.99);
+}
+
 /// A tilt carries the finger axis off: later pushes of a long plan must know.
 TEST(RobustPlan, CountsTheDriftOfEarlierPushes) {
   const Margin margin{.grasp = 1e-3, .tilt = 0.01};

@@ -81,7 +81,7 @@ TEST(SearchContacts, KeepsItsContactsAtOtherMargins) {
     const auto problem = random_fixture(range, 5, i);
     if (!problem) continue;
     const Model model = prepare(problem->scene);
-    const SearchModel search = prepare_search(model, margin_of(model, usual_box()));
+    const SearchModel search = prepare_search(model, usual_margin(model));
     for (const double scale : {0.0, 3.0, 9.0}) {
       const Margin margin = search.margin.scaled(scale);
       const SearchModel other = with_margin(search, margin);

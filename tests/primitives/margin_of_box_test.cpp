@@ -120,6 +120,19 @@ TEST(MarginOfBox, UsualBoxIsSmall) {
   EXPECT_NEAR(margin.place, 1e-3, 1e-12);
 }
 
+TEST(MarginOfBox, UsualMarginCoversDiscsOverSoftPoints) {
+  Random random(2);
+  Scene scene = random_scene(random);
+  scene.g_Wz = 0.0;
+  scene.gripper.pad = DiscPad{0.01};
+  const Model discs = prepare(scene);
+  EXPECT_NEAR(usual_margin(discs).torque_radius, 0.10, 1e-12);
+  scene.gripper.pad = PointPad{.spin_radius = discs.c};
+  const Margin margin = usual_margin(prepare(scene));
+  EXPECT_NEAR(margin.torque_radius, 0.20, 1e-12);
+  EXPECT_NEAR(margin.friction, 0.10, 1e-12);
+}
+
 TEST(MarginOfBox, NothingUncertainIsNoMargin) {
   Random random(3);
   for (int i = 0; i < 100; ++i) {

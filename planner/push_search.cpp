@@ -111,9 +111,11 @@ std::optional<std::vector<Move>> search_within_tolerance(const SearchModel& sear
 }
 
 /// Where no way leads to the goal itself: to places that are off it by up to its
-/// tolerances.
+/// tolerances. Not for cans, whose plans may have to pass a place to roll at, too: their
+/// ways are left to the fallback.
 bool plan_beside_goal(const SearchModel& search, const FlatState& from, const Goal& goal,
                       double bound, const Limits& limits, Work& work, Plan& plan) {
+  if (can_roll(search.model->scene.object)) return false;
   const GoalPlaces places = tolerated_places(*search.model, goal, from);
   if (places.count == 0) return false;
   const auto found = search_chains(search, from, places, bound, limits, work);

@@ -110,18 +110,6 @@ std::optional<std::vector<Move>> search_within_tolerance(const SearchModel& sear
   return moves_of(search, from, found->chain);
 }
 
-/// Where no way leads to the goal itself: to places that are off it by up to its
-/// tolerances. Not for cans, whose plans may have to pass a place to roll at, too: their
-/// ways are left to the fallback.
-bool plan_beside_goal(const SearchModel& search, const FlatState& from, const Goal& goal,
-                      double bound, const Limits& limits, Work& work, Plan& plan) {
-  if (can_roll(search.model->scene.object)) return false;
-  const GoalPlaces places = tolerated_places(*search.model, goal, from);
-  if (places.count == 0) return false;
-  const auto found = search_chains(search, from, places, bound, limits, work);
-  return plan_with_real_pads(search, from, places, found, limits, work, plan);
-}
-
 /// Fills the pushes in the pad plane; false if none were found.
 bool plan_in_plane(const SearchModel& search, const Grasp& start, const Goal& goal,
                    const Limits& limits, Work& work, Plan& plan) {
@@ -145,8 +133,32 @@ bool plan_in_plane(const SearchModel& search, const Grasp& start, const Goal& go
     append_chain(search, from, found->chain, plan);
     return true;
   }
-  return plan_with_real_pads(search, from, goals, found, limits, work, plan) ||
-         plan_beside_goal(search, from, goal, bound, limits, work, plan);
+  return plan_with_real_pads(search, from, goals, found, limits, work, plan);
+}
+
+/// The stages of more than two pushes once more, to places that are off the goal by up to
+/// its tolerances.
+bool plan_beside_goal(const SearchModel& search, const Grasp& start, const Goal& goal,
+                      const Limits& limits, Work& work, Plan& plan) {
+  const FlatState from = flat_state(start);
+  const GoalPlaces places = tolerated_places(*search.model, goal, from);
+  if (places.count == 0) return false;
+  const double bound = guide_bound(*search.model, start, goal);
+  const auto found = search_chains(search, from, places, bound, limits, work);
+  return plan_with_real_pads(search, from, places, found, limits, work, plan);
+}
+
+/// A baseline with work of its own.
+bool plan_by_fallback(const SearchModel& search, const Grasp& start, const Goal& goal,
+                      const PlanOptions& options, std::int64_t budget, Work& work,
+                      Plan& plan) {
+  if (budget <= 0) return false;
+  if (work.meter) work.meter->enter("fallback");
+  const auto moves = fall_back(search, start, goal, options, budget, work);
+  if (!moves) return false;
+  for (const Move& move : *moves) append_move(search, move, plan);
+  plan.planner += std::string("+") + kFallbackPlanner;
+  return true;
 }
 
 void say_undecided(const Limits& limits, Plan& plan) {
@@ -161,7 +173,8 @@ void say_undecided(const Limits& limits, Plan& plan) {
             "smaller margin may admit one";
 }
 
-/// The exact stages with their share of the budget, then the fallback with its own.
+/// The exact stages with their share of the budget, then the fallback with its own, and
+/// with what is left the places beside a goal that no way leads to.
 bool plan_in_shares(const SearchModel& search, const Grasp& start, const Goal& goal,
                     const PlanOptions& options, Work& work, Plan& plan) {
   const Limits limits(options, work);
@@ -174,15 +187,12 @@ bool plan_in_shares(const SearchModel& search, const Grasp& start, const Goal& g
   work.budget -= of_fallback;
   const bool exact = plan_in_plane(search, start, goal, limits, work, plan);
   work.budget = whole;
-  if (exact || of_fallback <= 0 || limits.reached() || search.contacts.empty()) {
-    return exact;
+  if (exact || limits.reached() || search.contacts.empty()) return exact;
+  if (plan_by_fallback(search, start, goal, options, of_fallback, work, plan)) {
+    return true;
   }
-  if (work.meter) work.meter->enter("fallback");
-  const auto moves = fall_back(search, start, goal, options, of_fallback, work);
-  if (!moves) return false;
-  for (const Move& move : *moves) append_move(search, move, plan);
-  plan.planner += std::string("+") + kFallbackPlanner;
-  return true;
+  if (work.meter) work.meter->enter("beside the goal");
+  return plan_beside_goal(search, start, goal, limits, work, plan);
 }
 
 bool rolls_on_way(const SearchModel& search, Plan plan, double dpsi,

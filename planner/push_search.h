@@ -17,10 +17,10 @@ namespace prehensile {
 /// Plans from `start` to `goal`, in order of effort: one push; two pushes through a
 /// crossing of cone lines; two pushes through a lattice node; a best-first search over
 /// the lattice; many short pushes along a path (fan_search.h) or over a fine lattice
-/// (walk_search.h); the same to places off the goal within its tolerances; and with the
-/// share of the budget that its option `fallback_share` says, a baseline (fallback.h),
-/// whose plan is shortened by the same means. Every push of the answer sticks with the
-/// real pad over the margin box of `search`.
+/// (walk_search.h); with the share of the budget that its option `fallback_share` says, a
+/// baseline (fallback.h), whose plan is shortened by the same means; and the stages from
+/// the crossing on to places off the goal within its tolerances. Every push of the answer
+/// sticks with the real pad over the margin box of `search`.
 ///
 /// Status: kReachedGoal (pushes with start and end poses; forces and certificates still
 /// unset), kBudgetSpent, kStopped, kUnsupported (a roll is wanted and none is possible).

@@ -50,8 +50,7 @@ double force_margin(const Model& model, const UncertaintyBox& box) {
   return std::max({0.0, most / nominal - 1.0, 1.0 - least / nominal});
 }
 
-/// Of the torque radius of soft points.
-constexpr double kOfEllipsoid = 0.20;
+constexpr double kTorqueRadiusOfSoftPoints = 0.20;
 
 }  // namespace
 
@@ -74,7 +73,7 @@ Margin margin_of(const Model& model, const UncertaintyBox& box) {
 
 Margin usual_margin(const Model& model) {
   UncertaintyBox box = usual_box();
-  if (model.has_soft_points()) box[Unknown::kTorqueRadius] = kOfEllipsoid;
+  if (model.has_soft_points()) box[Unknown::kTorqueRadius] = kTorqueRadiusOfSoftPoints;
   return margin_of(model, box);
 }
 

@@ -59,9 +59,9 @@ struct UncertaintyBox {
 /// What stayed uncertain after a calibration.
 UncertaintyBox box_of(const CalibrationRecord& record);
 
-/// The small errors that are meant if nothing else is said: frictions of the pushers 10
-/// %, of the fingers 5 %, grip force 3 %, mass 1 %, torque radius 10 %, centre of mass
-/// 0.7 mm, place of the pusher 1 mm and its angle 0.5 deg, object in the hand 0.5 mm.
+/// The small errors that are meant if nothing else is said, as shares: friction of the
+/// pushers 0.10, of the fingers 0.05, grip force 0.03, mass 0.01, torque radius 0.10; and
+/// centre of mass 0.7 mm, pusher 1 mm and 0.5 deg, object in the hand 0.5 mm.
 UncertaintyBox usual_box();
 
 /// The scene's own uncertainty as a box: half widths, or of a normal distribution as many
@@ -80,7 +80,7 @@ UncertaintyBox stated_box(const Scene& scene);
 Margin margin_of(const Model& model, const UncertaintyBox& box);
 
 /// What plans survive if nothing else is said: the usual box. Over soft points its torque
-/// radius is uncertain by 20 %: they stand for pads whose friction body is an ellipsoid
+/// radius is uncertain by 20 %: they stand for pads whose limit surface is an ellipsoid
 /// only nearly. An even disc of the same torque radius c, say, has the moment over force
 /// of an ellipsoid of 0.75 c where it turns slowly and of 1.22 c where it spins.
 Margin usual_margin(const Model& model);

@@ -98,6 +98,12 @@ std::string write_arm_files(const ArmOptions& options, const Model& model,
   const ArmMotion motion = arm_motion(model, plan.plan, limits);
   const double seconds = motion.samples.empty() ? 0.0 : motion.samples.back().t;
   std::string out;
+  for (const int push : motion.blocked_transits) {
+    out += text(
+        "the way to push %d is straight and not clear of the obstacles: none that "
+        "is clear of them was found\n",
+        push + 1);
+  }
   for (const std::string& file : options.files) {
     write_atomically(file, arm_to_text(plan, motion, limits, arm_format(file)));
     out += "arm file: " + file +

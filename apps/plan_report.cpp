@@ -90,6 +90,13 @@ std::string explanation_text(const Explanation& explanation) {
   return out;
 }
 
+std::string price_text(const CostWeights& price, const Plan& plan) {
+  return text(
+      "prices: travel %g, work %g per J, grip change %g; the pads take %.4g J, the grip "
+      "changes %g times\n",
+      price.travel, price.work, price.grip_change, plan.work, plan.grip_changes);
+}
+
 }  // namespace
 
 std::string contact_text(const Model& model, int contact) {
@@ -128,6 +135,7 @@ std::string describe(const Model& model, const Plan& plan) {
         "published cost %.1f\n",
         plan.cost, plan.placements, to_mm(plan.travel), plan.lower_bound,
         100.0 * plan.gap(), plan.published_cost);
+    if (model.scene.cost) out += price_text(*model.scene.cost, plan);
     out += promise_text(plan);
   }
   if (plan.explanation) out += explanation_text(*plan.explanation);

@@ -6,6 +6,7 @@
 #include "benchmarks/measure.h"
 #include "planner/baselines.h"
 #include "planner/bounds.h"
+#include "planner/costs.h"
 #include "planner/exact_check.h"
 #include "planner/push_search.h"
 #include "planner/replay.h"

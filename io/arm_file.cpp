@@ -57,7 +57,8 @@ struct Note {
   std::string key, value;
 };
 
-std::vector<Note> notes_of(const PlanFile& file, const ArmLimits& limits) {
+std::vector<Note> notes_of(const PlanFile& file, const ArmMotion& motion,
+                           const ArmLimits& limits) {
   const Model model = prepare(file.scene);
   const ToolTransform& tool = file.scene.gripper.tool;
   const auto list = [](const std::string& inside) { return "[" + inside + "]"; };
@@ -102,6 +103,11 @@ std::vector<Note> notes_of(const PlanFile& file, const ArmLimits& limits) {
     value += " on ";
     value += model.faces[static_cast<std::size_t>(touched.face)].name;
     notes.push_back({std::move(key), yaml_text(value)});
+  }
+  for (const int push : motion.blocked_transits) {
+    notes.push_back({"transit_to_push_" + std::to_string(push + 1),
+                     yaml_text("straight, and not clear of the obstacles: no way that is "
+                               "clear of them was found, go another one")});
   }
   return notes;
 }
@@ -289,7 +295,7 @@ ArmFormat arm_format(const std::filesystem::path& file) {
 
 std::string arm_to_text(const PlanFile& plan, const ArmMotion& motion,
                         const ArmLimits& limits, ArmFormat format) {
-  const std::vector<Note> notes = notes_of(plan, limits);
+  const std::vector<Note> notes = notes_of(plan, motion, limits);
   switch (format) {
     case ArmFormat::kCsv:
       break;

@@ -186,9 +186,15 @@ void visit_proof(Fields& fields, Proof& proof) {
 template <typename Fields>
 void visit_costs(Fields& fields, WrittenPlan& record) {
   Plan& plan = record.plan;
-  fields.measured("cost", plan.cost, kCosts, "J = placements + travel / length.");
+  fields.measured("cost", plan.cost, kCosts,
+                  "J = placements + travel / length, or by the prices of the scene.");
   fields.number("placements", plan.placements, kCosts, kRequired, "S: of a pusher.");
   fields.measured("travel", plan.travel, kDistances, "T: path length of the plan.");
+  if_positive(fields, "work", plan.work, {0.0, 1e12, "J"},
+              "W: what the friction of the pads takes. Absent: 0, or the scene states no "
+              "cost.");
+  if_positive(fields, "grip_changes", plan.grip_changes, kCosts,
+              "G: changes of the grip force. Absent: 0, or the scene states no cost.");
   fields.measured("lower_bound", plan.lower_bound, kCosts, "No plan costs less.");
   fields.word(
       "bound_by", plan.bound_is_trivial, kBoundWords, kOptional,

@@ -274,6 +274,16 @@ void visit_uncertainty(Fields& fields, Uncertainty& uncertainty) {
 }
 
 template <typename Fields>
+void visit_cost(Fields& fields, CostWeights& cost) {
+  fields.number("travel", cost.travel, {0.01, 100.0, ""}, kOptional,
+                "Of travel as long as the object's longer side.");
+  fields.number("work", cost.work, {0.0, 1e4, "1/J"}, kOptional,
+                "Of each joule that the friction of the pads takes.");
+  fields.number("grip_change", cost.grip_change, {0.0, 100.0, ""}, kOptional,
+                "Of each change of the grip force.");
+}
+
+template <typename Fields>
 void visit_scene(Fields& fields, Scene& scene) {
   fields.version(kSceneVersion);
   fields.text("name", scene.name, kOptional, "Name shown in reports.");
@@ -297,6 +307,10 @@ void visit_scene(Fields& fields, Scene& scene) {
   fields.group("goal", scene.goal,
                "Pose wanted in the hand; absent coordinates are free.",
                [](auto& f, Goal& goal) { visit_goal(f, goal); });
+  fields.group("cost", scene.cost,
+               "What a plan pays beside 1 for each placement of a pusher. Absent: 1 for "
+               "travel as long as the object's longer side.",
+               [](auto& f, CostWeights& cost) { visit_cost(f, cost); });
   fields.group("limits", scene.limits,
                "Where grasp and hand may get to. Absent: anywhere.",
                [](auto& f, GraspLimits& limits) { visit_limits(f, limits); });

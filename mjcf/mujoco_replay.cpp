@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "mjcf/mjcf.h"
+#include "planner/costs.h"
 
 namespace prehensile::mjcf {
 namespace {

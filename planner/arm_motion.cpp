@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "mechanics/sticking.h"
+#include "planner/costs.h"
 #include "planner/placement.h"
+#include "planner/transit.h"
 
 namespace prehensile {
 namespace {
@@ -12,12 +14,6 @@ namespace {
 constexpr double kPeakRate = 1.875;
 const double kPeakSecondRate = 10.0 / std::sqrt(3.0);
 constexpr double kTouch = 2.0;  // [N] allowed on top where nothing should touch
-
-/// A planar pose of H in W and its place along z.
-struct HandPose {
-  PlanarPose X_WH;
-  double z = 0.0;
-};
 
 ArmPose spatial(const HandPose& hand) {
   return {{hand.X_WH.x, hand.X_WH.y, hand.z},
@@ -84,24 +80,38 @@ class MotionWriter {
     z_ = 0.0;
     const PlanarPose& X_HO = planned().start.X_HO;
     const HandPose away = hand(X_HO, limits_.clearance);
-    if (push_ > 0) {
-      const HandPose from = last_;
-      HandPose to = away;
-      to.X_WH.theta =
-          from.X_WH.theta + wrapped(away.X_WH.theta - from.X_WH.theta);  // the short way
-      turns_ = to.X_WH.theta - away.X_WH.theta;
-      const Vec2 way = translation(to.X_WH) - translation(from.X_WH);
-      const double turn = to.X_WH.theta - from.X_WH.theta;
-      move(ArmPhase::kTransit, std::hypot(way.norm(), to.z - from.z), turn,
-           limits_.transit_speed, [&](double s) {
-             return HandPose{{std::lerp(from.X_WH.x, to.X_WH.x, s),
-                              std::lerp(from.X_WH.y, to.X_WH.y, s),
-                              std::lerp(from.X_WH.theta, to.X_WH.theta, s) - turns_},
-                             std::lerp(from.z, to.z, s)};
-           });
-    }
+    if (push_ > 0) write_transit(away, X_HO);
     move(ArmPhase::kApproach, limits_.clearance, 0.0, limits_.approach_speed,
          [&](double s) { return hand(X_HO, (1.0 - s) * limits_.clearance); });
+  }
+
+  /// To the next placement with the object at X_HO in the hand, around obstacles if the
+  /// scene names any.
+  void write_transit(const HandPose& away, const PlanarPose& X_HO) {
+    HandPose to = away;
+    to.X_WH.theta =
+        last_.X_WH.theta + wrapped(away.X_WH.theta - last_.X_WH.theta);  // the short way
+    std::vector<HandPose> way = {last_, to};
+    if (model_.scene.obstacles) {
+      auto clear = find_transit(model_, X_HO, last_, to, plan_.seed);
+      if (clear) {
+        way = std::move(*clear);
+      } else {
+        motion_.blocked_transits.push_back(push_);
+      }
+    }
+    turns_ = way.back().X_WH.theta - away.X_WH.theta;
+    for (std::size_t i = 1; i < way.size(); ++i) {
+      const HandPose& from = way[i - 1];
+      const HandPose& next = way[i];
+      const Vec2 step = translation(next.X_WH) - translation(from.X_WH);
+      move(ArmPhase::kTransit, std::hypot(step.norm(), next.z - from.z),
+           next.X_WH.theta - from.X_WH.theta, limits_.transit_speed, [&](double s) {
+             HandPose pose = between(from, next, s);
+             pose.X_WH.theta -= turns_;
+             return pose;
+           });
+    }
   }
 
   void write_push() {

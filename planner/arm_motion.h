@@ -35,7 +35,8 @@ struct ArmLimits {
 };
 
 enum class ArmPhase {
-  kTransit,  ///< between two placements, on a straight line: the robot may go another way
+  kTransit,   ///< between two placements, on a straight line, or in straight parts around
+              ///< obstacles: the robot may go another way
   kApproach,  ///< along the normal of the pusher until it touches
   kGrip,      ///< the hand stands still, the grip force changes
   kPush,
@@ -63,6 +64,9 @@ struct ArmSample {
 
 struct ArmMotion {
   std::vector<ArmSample> samples;
+  /// Indices of pushes before which no transit was found that keeps hand and object clear
+  /// of the obstacles of the scene; a straight one is written.
+  std::vector<int> blocked_transits;
 };
 
 /// The share of a rest-to-rest motion that is done at the share u of its time: a quintic

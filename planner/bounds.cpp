@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "planner/angle_scan.h"
+#include "planner/costs.h"
 #include "planner/goal.h"
 #include "planner/planner.h"
 #include "planner/slab_travel.h"
@@ -166,13 +167,14 @@ double single_run_travel(const Model& model, const PushContact& contact,
 }
 
 double in_plane_bound(const Model& model, const GoalSet& set, double distance) {
-  const double straight = distance / model.L;
+  const double length = longest_placement_length(model);
+  const double straight = distance / length;
   const bool isotropic = model.region.is_isotropic() && model.region.is_fixed_in_hand();
   if (!isotropic || !set.fixes_place()) return 1.0 + straight;
   double bound = 2.0 + straight;
   for (const PushContact& contact : model.contacts) {
     const double travel = single_run_travel(model, contact, set);
-    bound = std::min(bound, 1.0 + std::max(distance, travel) / model.L);
+    bound = std::min(bound, 1.0 + std::max(distance, travel) / length);
   }
   return bound;
 }
@@ -186,7 +188,7 @@ double roll_path(const Model& model, const Grasp& start, const Goal& goal) {
 
 double roll_cost(const Model& model, const Grasp& start, const Goal& goal) {
   const double roll = roll_path(model, start, goal);
-  return roll > 0.0 ? 1.0 + roll / model.L : 0.0;
+  return roll > 0.0 ? 1.0 + roll / longest_placement_length(model) : 0.0;
 }
 
 /// Relative rounding that a claimed bound is granted.
@@ -249,7 +251,8 @@ double distance_to_goal(const Model& model, const Grasp& start, const Goal& goal
 double trivial_bound(const Model& model, const Grasp& start, const Goal& goal) {
   const double distance = GoalSet(model, start, goal).distance();
   const double bound =
-      roll_cost(model, start, goal) + (distance > 0.0 ? 1.0 + distance / model.L : 0.0);
+      roll_cost(model, start, goal) +
+      (distance > 0.0 ? 1.0 + distance / longest_placement_length(model) : 0.0);
   return bound == 0.0 && !reaches(goal, start) ? 1.0 : bound;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/costs.h"
 #include "planner/holding.h"
 #include "planner/pad_kappas.h"
 #include "planner/ring_kappas.h"
@@ -245,7 +246,7 @@ bool solve_chain(const SearchModel& search, double dtheta, Chain& chain,
     }
     if (!next_choice(chain, choice)) break;
   }
-  chain.cost = placements(chain) + best_travel / search.model->L;
+  chain.cost = placements(chain) + best_travel / placement_length(*search.model);
   return std::isfinite(best_travel);
 }
 
@@ -283,7 +284,7 @@ void centre_chain(const SearchModel& search, double dtheta, double share,
     chain.kappa[k] += share * (lo + position * (hi - lo) - chain.kappa[k]);
     travel += chain.legs[k].length * std::hypot(1.0, chain.kappa[k]);
   }
-  chain.cost = placements(chain) + travel / search.model->L;
+  chain.cost = placements(chain) + travel / placement_length(*search.model);
 }
 
 bool make_chain_stick(const SearchModel& search, double theta_start, double dtheta,

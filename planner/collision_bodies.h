@@ -20,13 +20,14 @@ class CollisionBodies {
   CollisionBodies(const CollisionBodies&) = delete;
   CollisionBodies& operator=(const CollisionBodies&) = delete;
 
-  /// Least distance from the fixture of the hand at X_WH, or of the object at X_WO [m]; 0
-  /// where they overlap, and `enough` where it is at least that.
-  double hand_distance(const PlanarPose& X_WH, double enough) const;
-  double object_distance(const PlanarPose& X_WO, double enough) const;
+  /// Least distance from the fixture of the hand at X_WH, or of the object at X_WO [m],
+  /// lifted by z [m]; 0 where they overlap, and `enough` where it is at least that.
+  double hand_distance(const PlanarPose& X_WH, double enough, double z = 0.0) const;
+  double object_distance(const PlanarPose& X_WO, double enough, double z = 0.0) const;
 
-  /// How far from its z axis the hand reaches [m].
+  /// How far from their z axes hand and object reach [m].
   double hand_reach() const;
+  double object_reach() const;
 
   /// Pairs of bodies looked at so far.
   std::int64_t queries() const;

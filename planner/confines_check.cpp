@@ -104,12 +104,6 @@ std::string limits_fault(const Model& model, const PlannedPush& planned) {
   return grasp_fault(limits, planned.end.X_HO);
 }
 
-/// A frame on its way in W, at heights.
-struct Moving {
-  PlanarPose pose;
-  double z = 0.0;
-};
-
 /// Looks for collisions of one plan.
 class CollisionCheck {
  public:
@@ -127,11 +121,11 @@ class CollisionCheck {
     const auto* roll = std::get_if<Roll>(&planned.push);
     const double rise = roll ? -roll->travel : 0.0;
     const auto hand = [&](double s, double off) {
-      return Moving{moved(compose(X_WO, inverse(pose_at(planned, s))), off * n),
-                    s * rise};
+      return HandPose{moved(compose(X_WO, inverse(pose_at(planned, s))), off * n),
+                      s * rise};
     };
     const auto object = [&](double s, double off) {
-      return Moving{moved(X_WO, (kTouch + off) * n), s * rise};
+      return HandPose{moved(X_WO, (kTouch + off) * n), s * rise};
     };
     if (hits(obstacles_.hand, obstacles_.clearance, way(planned),
              [&](double s) { return hand(s, 0.0); })) {
@@ -152,6 +146,22 @@ class CollisionCheck {
       }
     }
     return {};
+  }
+
+  bool transit_hits(const PlanarPose& X_HO, const HandPose& from,
+                    const HandPose& to) const {
+    double reach = reach_;
+    for (const ConvexBody& body : object_) {
+      reach = std::max(reach, translation(X_HO).norm() + reach_about_z(body));
+    }
+    const Vec3 d(to.X_WH.x - from.X_WH.x, to.X_WH.y - from.X_WH.y, to.z - from.z);
+    const double length = d.norm() + reach * std::abs(to.X_WH.theta - from.X_WH.theta);
+    return hits(obstacles_.hand, obstacles_.clearance, length,
+                [&](double s) { return between(from, to, s); }) ||
+           hits(object_, 0.0, length, [&](double s) {
+             const HandPose at = between(from, to, s);
+             return HandPose{compose(at.X_WH, X_HO), at.z};
+           });
   }
 
  private:
@@ -182,9 +192,9 @@ class CollisionCheck {
     }
   }
 
-  double distance(const std::vector<ConvexBody>& bodies, const Moving& frame) const {
+  double distance(const std::vector<ConvexBody>& bodies, const HandPose& frame) const {
     double least = std::numeric_limits<double>::infinity();
-    const Eigen::Isometry3d X_W = in_space(frame.pose, frame.z);
+    const Eigen::Isometry3d X_W = in_space(frame.X_WH, frame.z);
     for (const ConvexBody& body : bodies) {
       const PlacedBody placed{&body, X_W * pose_of(body)};
       for (const ConvexBody& fixed : obstacles_.fixture) {
@@ -214,6 +224,34 @@ std::string confinement_fault(const Model& model,
     if (!fault.empty()) return "push " + std::to_string(i + 1) + ": " + fault;
   }
   return {};
+}
+
+bool hand_stays_within(const GraspLimits& limits, const HandPose& from,
+                       const HandPose& to) {
+  for (const HandPose* pose : {&from, &to}) {
+    if (is_beyond(translation(pose->X_WH), limits.hand_low, limits.hand_high)) {
+      return false;
+    }
+  }
+  if (!limits.hand_angle_low) return true;
+  const double low = *limits.hand_angle_low;
+  const double high = *limits.hand_angle_high;
+  const double whole = 2.0 * std::numbers::pi;
+  if (high - low >= whole - kLimitTolerance) return true;
+  if (is_beyond_angles(from.X_WH.theta, low, high)) return false;
+  double above = std::fmod(from.X_WH.theta - low, whole);
+  if (above < 0.0) above += whole;
+  if (above > high - low + kLimitTolerance) above -= whole;
+  const double end = above + to.X_WH.theta - from.X_WH.theta;
+  return end >= -kLimitTolerance && end <= high - low + kLimitTolerance;
+}
+
+bool transit_is_clear(const Model& model, const PlanarPose& X_HO, const HandPose& from,
+                      const HandPose& to) {
+  if (model.scene.limits && !hand_stays_within(*model.scene.limits, from, to)) {
+    return false;
+  }
+  return !CollisionCheck(model).transit_hits(X_HO, from, to);
 }
 
 }  // namespace prehensile

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "planner/plan.h"
+#include "planner/transit.h"
 
 namespace prehensile {
 
@@ -21,5 +22,14 @@ inline constexpr double kClearanceTolerance = 2e-5;
 /// (separation.h), and no point of a way is left out: each distance clears the poses
 /// after it up to where the fastest point might touch.
 std::string confinement_fault(const Model& model, const std::vector<PlannedPush>& pushes);
+
+/// Whether the hand is within its limits all along a straight way (transit.h).
+bool hand_stays_within(const GraspLimits& limits, const HandPose& from,
+                       const HandPose& to);
+
+/// Whether hand and object, at rest in it at X_HO, keep clear of the fixture all along a
+/// straight way, and the hand within its limits; by separating planes, as above.
+bool transit_is_clear(const Model& model, const PlanarPose& X_HO, const HandPose& from,
+                      const HandPose& to);
 
 }  // namespace prehensile

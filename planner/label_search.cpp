@@ -6,6 +6,7 @@
 #include <queue>
 
 #include "planner/confines.h"
+#include "planner/costs.h"
 
 namespace prehensile {
 namespace {
@@ -94,7 +95,7 @@ class LabelSearch {
     for (int i = 0; i < goals_.count; ++i) {
       rest = std::min(rest, (goals_.places[i].p_OF - node).norm());
     }
-    return rest / search_.model->L;
+    return rest / placement_length(*search_.model);
   }
 
   /// The start is the last node.
@@ -115,7 +116,7 @@ class LabelSearch {
         least = std::min(least, way + missing * missing);
       }
     }
-    return std::sqrt(least) / search_.model->L;
+    return std::sqrt(least) / placement_length(*search_.model);
   }
 
   void push(const Label& label) {
@@ -229,7 +230,8 @@ class LabelSearch {
       const auto [lo, hi] = leg.kappas.intervals[i];
       const double least = std::clamp(0.0, lo, hi);
       edges.push_back({to, leg.length * lo, leg.length * hi,
-                       leg.length * std::sqrt(1.0 + least * least) / search_.model->L});
+                       leg.length * std::sqrt(1.0 + least * least) /
+                           placement_length(*search_.model)});
     }
   }
 

@@ -1,27 +1,28 @@
 #include "planner/loosen_grip.h"
 
 #include <algorithm>
+#include <tuple>
 #include <vector>
 
+#include "planner/costs.h"
 #include "planner/exact_check.h"
 #include "planner/holding.h"
 
 namespace prehensile {
 namespace {
 
-/// The same pusher on the same face with a weaker grip, weakest first.
-std::vector<int> weaker_contacts(const Model& model, int contact) {
+/// The same pusher on the same face with every grip, its own included, weakest first.
+std::vector<int> contacts_beside(const Model& model, int contact) {
   const PushContact& own = model.contacts[contact];
-  std::vector<int> weaker;
+  std::vector<int> beside;
   for (int i = 0; i < static_cast<int>(model.contacts.size()); ++i) {
     const PushContact& other = model.contacts[i];
-    const bool same_place = other.pusher == own.pusher && other.face == own.face;
-    if (same_place && other.grip_share < own.grip_share) weaker.push_back(i);
+    if (other.pusher == own.pusher && other.face == own.face) beside.push_back(i);
   }
-  std::sort(weaker.begin(), weaker.end(), [&](int a, int b) {
+  std::sort(beside.begin(), beside.end(), [&](int a, int b) {
     return model.contacts[a].grip_share < model.contacts[b].grip_share;
   });
-  return weaker;
+  return beside;
 }
 
 Push with_contact(Push push, int contact) {
@@ -29,22 +30,19 @@ Push with_contact(Push push, int contact) {
   return push;
 }
 
-/// Pushes [first, last) of a plan, one placement, and what they travelled before [m].
+/// Pushes [first, last) of a plan, one placement.
 struct Run {
   std::size_t first, last;
-  double travelled;
+  double travelled;           ///< [m] before
+  std::vector<int> contacts;  ///< that it survives with, weakest grip first
 };
 
-Run run_from(const Plan& plan, std::size_t first, double travelled) {
-  const auto place = [&](std::size_t i) { return as_linear(plan.pushes[i].push).place; };
+std::size_t end_of_run(const std::vector<PlannedPush>& pushes, std::size_t first) {
   std::size_t last = first + 1;
-  while (last < plan.pushes.size() &&
-         !std::holds_alternative<Roll>(plan.pushes[last].push) &&
-         contact_of(plan.pushes[last].push) == contact_of(plan.pushes[first].push) &&
-         place(last) == place(first)) {
+  while (last < pushes.size() && same_placement(pushes[last].push, pushes[first].push)) {
     ++last;
   }
-  return {first, last, travelled};
+  return last;
 }
 
 bool survives(const SearchModel& search, const Plan& plan, const Run& run, int contact,
@@ -69,30 +67,120 @@ bool survives(const SearchModel& search, const Plan& plan, const Run& run, int c
   return true;
 }
 
+/// The contacts of a run: its own alone for rolls and about points.
+std::vector<int> surviving(const SearchModel& search, const Plan& plan, const Run& run,
+                           Work& work) {
+  const Model& model = *search.model;
+  const Push& push = plan.pushes[run.first].push;
+  const int own = contact_of(push);
+  if (std::holds_alternative<Roll>(push) || model.contacts[own].is_point) return {own};
+  std::vector<int> contacts;
+  for (const int contact : contacts_beside(model, own)) {
+    if (contact == own || survives(search, plan, run, contact, work)) {
+      contacts.push_back(contact);
+    }
+  }
+  return contacts;
+}
+
+/// The cheapest grip for every run by dynamic programming over runs and their grips.
+class GripChoice {
+ public:
+  GripChoice(const Model& model, const Plan& plan, const std::vector<Run>& runs)
+      : model_(model), plan_(plan), runs_(runs), price_(prices(model)) {}
+
+  /// Index into the contacts of each run.
+  std::vector<std::size_t> best() {
+    std::vector<std::vector<Node>> nodes(runs_.size());
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+      for (std::size_t k = 0; k < runs_[i].contacts.size(); ++k) {
+        nodes[i].push_back(reached(i, k, i > 0 ? nodes[i - 1] : std::vector<Node>{}));
+      }
+    }
+    std::vector<std::size_t> chosen(runs_.size());
+    std::size_t at = cheapest_end(nodes.back());
+    for (std::size_t i = runs_.size(); i-- > 0;) {
+      chosen[i] = at;
+      at = nodes[i][at].before;
+    }
+    return chosen;
+  }
+
+ private:
+  /// Best choice up to a run: what it costs, what breaks ties (work at the grips), and
+  /// the choice of the run before.
+  struct Node {
+    double cost = 0.0, work = 0.0;
+    std::size_t before = 0;
+    bool operator<(const Node& other) const {
+      return std::tie(cost, work) < std::tie(other.cost, other.work);
+    }
+  };
+
+  Push push_of(std::size_t run, std::size_t choice) const {
+    return with_contact(plan_.pushes[runs_[run].first].push, runs_[run].contacts[choice]);
+  }
+
+  double change_cost(const Push* before, const Push* after) const {
+    return price_.grip_change * grip_changes_on_way(model_, before, after);
+  }
+
+  Node reached(std::size_t run, std::size_t choice,
+               const std::vector<Node>& befores) const {
+    const Push push = push_of(run, choice);
+    Node best{.cost = change_cost(nullptr, &push)};
+    for (std::size_t k = 0; k < befores.size(); ++k) {
+      Node node = befores[k];
+      const Push before = push_of(run - 1, k);
+      node.cost += change_cost(&before, &push);
+      node.before = k;
+      if (k == 0 || node < best) best = node;
+    }
+    for (std::size_t i = runs_[run].first; i < runs_[run].last; ++i) {
+      PlannedPush planned = plan_.pushes[i];
+      planned.push = with_contact(planned.push, runs_[run].contacts[choice]);
+      const double work = friction_work(model_, planned);
+      best.work += work;
+      best.cost += price_.work * work;
+    }
+    return best;
+  }
+
+  std::size_t cheapest_end(std::vector<Node> ends) const {
+    for (std::size_t k = 0; k < ends.size(); ++k) {
+      const Push push = push_of(runs_.size() - 1, k);
+      ends[k].cost += change_cost(&push, nullptr);
+    }
+    return std::min_element(ends.begin(), ends.end()) - ends.begin();
+  }
+
+  const Model& model_;
+  const Plan& plan_;
+  const std::vector<Run>& runs_;
+  CostWeights price_;
+};
+
 }  // namespace
 
 bool loosen_grip(const SearchModel& search, Work& work, Plan& plan) {
   const Model& model = *search.model;
-  if (!model.scene.gripper.grip_range) return false;
-  bool changed = false;
+  if (!model.scene.gripper.grip_range || plan.pushes.empty()) return false;
+  std::vector<Run> runs;
   double travelled = 0.0;
-  for (std::size_t i = 0; i < plan.pushes.size();) {
-    if (std::holds_alternative<Roll>(plan.pushes[i].push)) {
-      ++i;
-      continue;
-    }
-    const Run run = run_from(plan, i, travelled);
-    const int own = contact_of(plan.pushes[i].push);
-    const std::vector<int> weaker =
-        model.contacts[own].is_point ? std::vector<int>{} : weaker_contacts(model, own);
-    const auto weakest = std::find_if(weaker.begin(), weaker.end(), [&](int contact) {
-      return survives(search, plan, run, contact, work);
-    });
-    for (; i < run.last; ++i) {
-      travelled += travel_in_pad_plane(plan.pushes[i].push);
-      if (weakest == weaker.end()) continue;
-      plan.pushes[i].push = with_contact(plan.pushes[i].push, *weakest);
-      changed = true;
+  for (std::size_t i = 0; i < plan.pushes.size(); i = runs.back().last) {
+    Run run{i, end_of_run(plan.pushes, i), travelled, {}};
+    run.contacts = surviving(search, plan, run, work);
+    for (; i < run.last; ++i) travelled += travel_in_pad_plane(plan.pushes[i].push);
+    runs.push_back(std::move(run));
+  }
+  const std::vector<std::size_t> chosen = GripChoice(model, plan, runs).best();
+  bool changed = false;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const int contact = runs[i].contacts[chosen[i]];
+    for (std::size_t k = runs[i].first; k < runs[i].last; ++k) {
+      Push& push = plan.pushes[k].push;
+      changed |= contact_of(push) != contact;
+      push = with_contact(push, contact);
     }
   }
   return changed;

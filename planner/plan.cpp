@@ -1,35 +1,8 @@
 #include "planner/plan.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace prehensile {
-namespace {
-
-/// What has to stay the same for a push to need no new placement of the pusher.
-bool same_placement(const Push& push, const Push& before) {
-  const bool rolls = std::holds_alternative<Roll>(push);
-  if (rolls != std::holds_alternative<Roll>(before)) return false;
-  if (contact_of(push) != contact_of(before)) return false;
-  return rolls || as_linear(push).place == as_linear(before).place;
-}
-
-/// Path length of the finger axis, the turn and the roll in the planner's space [m].
-/// About a point pusher the object turns by another angle than the pusher.
-double travel_of(const Model& model, const PlannedPush& planned) {
-  if (const auto* roll = std::get_if<Roll>(&planned.push)) return std::abs(roll->travel);
-  const LinearPush linear = as_linear(planned.push);
-  if (!model.contacts[static_cast<std::size_t>(linear.contact)].is_point) {
-    return std::hypot(linear.travel, model.c * linear.turn);
-  }
-  const PlanarPose& from = planned.start.X_HO;
-  const PlanarPose& to = planned.end.X_HO;
-  return std::hypot((finger_in_object(to) - finger_in_object(from)).norm(),
-                    model.c * (to.theta - from.theta));
-}
-
-}  // namespace
-
 bool Plan::rolls() const {
   return std::any_of(pushes.begin(), pushes.end(), [](const PlannedPush& push) {
     return std::holds_alternative<Roll>(push.push);
@@ -133,35 +106,6 @@ double grip_force_of(const Model& model, const Push& push) {
   }
   const auto contact = static_cast<std::size_t>(contact_of(push));
   return own * model.contacts[contact].grip_share;
-}
-
-double grip_force_on_way(const Model& model, const std::vector<PlannedPush>& pushes,
-                         std::size_t push) {
-  double force = model.scene.gripper.grip_force;
-  const auto keep = [&](const Push& beside) {
-    if (!std::holds_alternative<Roll>(beside)) {
-      force = std::max(force, grip_force_of(model, beside));
-    }
-  };
-  if (push > 0) keep(pushes[push - 1].push);
-  if (push < pushes.size()) keep(pushes[push].push);
-  return force;
-}
-
-void account(const Model& model, Plan& plan) {
-  constexpr double kSamePusherCost = 0.1;  // of the published planners
-  plan.placements = 0.0;
-  plan.travel = 0.0;
-  plan.published_cost = 0.0;
-  for (std::size_t i = 0; i < plan.pushes.size(); ++i) {
-    const Push& push = plan.pushes[i].push;
-    const Push* before = i > 0 ? &plan.pushes[i - 1].push : nullptr;
-    if (!before || !same_placement(push, *before)) plan.placements += 1.0;
-    const bool same_pusher = before && contact_of(push) == contact_of(*before);
-    plan.published_cost += same_pusher ? kSamePusherCost : 1.0;
-    plan.travel += travel_of(model, plan.pushes[i]);
-  }
-  plan.cost = plan.placements + plan.travel / model.L;
 }
 
 }  // namespace prehensile

@@ -1,9 +1,9 @@
 /// A regrasp plan and everything that is known about it.
 ///
-/// Cost J = S + T / L: S pusher placements (runs of pushes by the same pusher
-/// at the same place), T travel = path length of (p_OF, c theta, r psi) [m], L longer
-/// side of the object. The published cost, 1 per push by a new pusher and 0.1 by the
-/// same, is reported beside it.
+/// Cost J = S + T / L, or what the scene states (costs.h): S pusher placements (runs of
+/// pushes by the same pusher at the same place), T travel = path length of
+/// (p_OF, c theta, r psi) [m], L longer side of the object. The published cost, 1 per
+/// push by a new pusher and 0.1 by the same, is reported beside it.
 #pragma once
 
 #include <cstdint>
@@ -102,6 +102,8 @@ struct Plan {
   double cost = kNan;            ///< J
   double placements = 0;         ///< S
   double travel = kNan;          ///< T [m]
+  double work = 0.0;             ///< [J] that pads take; 0 where the scene has no cost
+  double grip_changes = 0.0;     ///< likewise
   double lower_bound = kNan;     ///< valid bound on J over all sticking plans
   bool bound_is_trivial = true;  ///< by distances alone, nothing about pushers
   std::int64_t bound_nodes = 0;  ///< work of the bound, see planner/bounds.h
@@ -126,15 +128,5 @@ struct Plan {
 
 /// Of each finger during a push [N].
 double grip_force_of(const Model& model, const Push& push);
-
-/// While the hand goes from a push to the next, or to the first or away from the last
-/// [N]: that of the scene, or of a push beside the way if that is greater. `push`: index
-/// of the next, 0..size. Rolls count with the scene's: a support carries what they
-/// loosen.
-double grip_force_on_way(const Model& model, const std::vector<PlannedPush>& pushes,
-                         std::size_t push);
-
-/// Fills S, T, J and the published cost from the pushes.
-void account(const Model& model, Plan& plan);
 
 }  // namespace prehensile

@@ -9,17 +9,15 @@
 #include "planner/bounds.h"
 #include "planner/catalogue.h"
 #include "planner/confines.h"
+#include "planner/costs.h"
 #include "planner/exact_check.h"
+#include "planner/finish.h"
 #include "planner/frame.h"
-#include "planner/loosen_grip.h"
 #include "planner/meet_end.h"
-#include "planner/polish.h"
 #include "planner/push_search.h"
 #include "planner/refuse.h"
 #include "planner/replay.h"
-#include "planner/run_search.h"
 #include "planner/spread_pads.h"
-#include "planner/word_plans.h"
 #include "primitives/uncertainty.h"
 
 namespace prehensile {
@@ -60,52 +58,6 @@ void set_undecided(Plan& plan, std::string message) {
   plan.status = PlanStatus::kBudgetSpent;
   plan.message = std::move(message);
   plan.pushes.clear();
-}
-
-/// Puts a plan to the exact check, with the grip loosened if that passes.
-bool passes_check(const SearchModel& search, const PlanOptions& options, Work& work,
-                  Plan& plan, std::string& why) {
-  const Model& model = *search.model;
-  meet_ends(model, options.transition, plan);
-  Plan loosened = plan;
-  if (loosen_grip(search, work, loosened)) {
-    if (check_exactly(model, options.transition, loosened, &why)) {
-      plan = std::move(loosened);
-      return true;
-    }
-    plan.instants = loosened.instants;
-  }
-  return check_exactly(model, options.transition, plan, &why);
-}
-
-/// A plan found, polished in two ways, the cheapest first: what is put to the exact check
-/// in this order.
-std::vector<Plan> from_cheapest(const SearchModel& search, const PlanOptions& options,
-                                const Limits& limits, Work& work, const Plan& plan) {
-  if (!options.polish) return {plan};
-  Plan shorter = plan;
-  improve_by_run(search, limits, work, shorter);
-  polish(search, limits, work, shorter);
-  Plan shortest = shorter;
-  if (!improve_by_words(search, limits, work, shortest)) return {shorter, plan};
-  return {shortest, shorter, plan};
-}
-
-/// Polishes a plan found and puts it to the exact check; undecided with the reason if it
-/// fails as it was found, too.
-void finish(const SearchModel& search, const PlanOptions& options, const Limits& limits,
-            Work& work, Plan& plan) {
-  if (work.meter) work.meter->enter("polish");
-  std::string why;
-  for (Plan& one : from_cheapest(search, options, limits, work, plan)) {
-    one.instants = plan.instants;
-    if (passes_check(search, options, work, one, why)) {
-      plan = std::move(one);
-      return;
-    }
-    plan.instants = one.instants;
-  }
-  set_undecided(plan, "the plan found fails its exact check: " + why);
 }
 
 /// What one search keeps clear of, and what its plan must then survive.
@@ -163,7 +115,9 @@ Plan attempt(const Model& model, const PlanOptions& options, const Clearance& cl
   found.drift = uncounted_drift(model, plan);
   if (plan.status == PlanStatus::kReachedGoal) {
     found.plan = plan;
-    finish(search, options, limits, work, plan);
+    const std::string fault = finish(search, options, limits, work, plan);
+    if (!fault.empty())
+      set_undecided(plan, "the plan found fails its exact check: " + fault);
     if (plan.usable() && !reaches(*model.scene.goal, plan.goal)) {
       set_undecided(plan, "the plan found ends beside the goal");
     }

@@ -3,9 +3,7 @@
 #include <cmath>
 
 #include "optimisation/nonlinear_program.h"
-#include "planner/chain.h"
-#include "planner/goal.h"
-#include "planner/push_search.h"
+#include "planner/stretch.h"
 
 namespace prehensile {
 namespace {
@@ -16,43 +14,6 @@ constexpr double kInfeasible = 1e6;      // cost of way-points that no chain pas
 constexpr double kWorthwhile = 1e-4;     // relative gain below which the plan stays
 constexpr std::size_t kMostPushes = 12;  // beyond it sub-plex gains too little
 constexpr double kWorthBending = 0.02;   // relative gain for which pushes may be doubled
-
-/// The part of a plan between two rolls: moves only.
-struct Stretch {
-  FlatState start, end;
-  double psi = 0.0;
-  std::vector<int> contacts;       // by push, index in SearchModel::contacts
-  std::vector<double> way_points;  // x, y of p_OF between the pushes
-};
-
-int search_contact(const SearchModel& search, const LinearPush& push) {
-  for (std::size_t i = 0; i < search.contacts.size(); ++i) {
-    const SearchContact& contact = search.contacts[i];
-    if (contact.contact == push.contact && push.place >= contact.place_low - 1e-9 &&
-        push.place <= contact.place_high + 1e-9) {
-      return static_cast<int>(i);
-    }
-  }
-  return -1;
-}
-
-/// The chain of a stretch through these way-points, solved; false if there is none.
-bool chain_of(const Steering& steering, const Stretch& stretch,
-              std::span<const double> way_points, Work& work, Chain& chain) {
-  chain.count = static_cast<int>(stretch.contacts.size());
-  Stop from{stretch.start.p_OF, true};
-  for (int k = 0; k < chain.count; ++k) {
-    const bool last = k + 1 == chain.count;
-    const Stop to = last ? Stop{stretch.end.p_OF, true}
-                         : Stop{{way_points[2 * k], way_points[2 * k + 1]}};
-    if (!make_leg(steering, stretch.contacts[k], from, to, work, chain.legs[k])) {
-      return false;
-    }
-    from = to;
-  }
-  return solve_chain(steering.search, stretch.end.theta - stretch.start.theta, chain,
-                     turns_from(steering.search, stretch.start.theta));
-}
 
 /// The best chain of a stretch that still sticks with the real pad; false if it gains
 /// nothing.
@@ -95,35 +56,6 @@ bool drop_a_push(const Steering& steering, Work& work, const Stretch& stretch,
     }
   }
   return false;
-}
-
-bool read_stretch(const SearchModel& search, std::span<const PlannedPush> pushes,
-                  Stretch& stretch) {
-  stretch.start = flat_state(pushes.front().start);
-  stretch.end = flat_state(pushes.back().end);
-  stretch.psi = pushes.front().start.psi;
-  for (std::size_t i = 0; i < pushes.size(); ++i) {
-    stretch.contacts.push_back(search_contact(search, as_linear(pushes[i].push)));
-    if (stretch.contacts.back() < 0) return false;
-    if (i + 1 == pushes.size()) break;
-    const Vec2 p_OF = finger_in_object(pushes[i].end.X_HO);
-    stretch.way_points.push_back(p_OF.x());
-    stretch.way_points.push_back(p_OF.y());
-  }
-  return true;
-}
-
-std::vector<PlannedPush> pushes_of(const SearchModel& search, const Stretch& stretch,
-                                   const Chain& chain) {
-  Plan part;
-  part.start = grasp_of(stretch.start, stretch.psi);
-  double theta = stretch.start.theta;
-  for (int k = 0; k < chain.count; ++k) {
-    const Move move = move_of(search, chain, k, theta);
-    append_move(search, move, part);
-    theta = move.to.theta;
-  }
-  return part.pushes;
 }
 
 /// The stretch with each push in two halves, which the same contact makes.
@@ -185,35 +117,14 @@ void bend(const SearchModel& search, const Limits& limits, Work& work,
   }
 }
 
-/// Pushes of one stretch, shorter if possible.
-std::vector<PlannedPush> polished(const SearchModel& search, const Limits& limits,
-                                  Work& work, std::vector<PlannedPush> pushes) {
-  tighten(search, limits, work, pushes);
-  if (pushes.size() >= 2) bend(search, limits, work, pushes);
-  return pushes;
-}
-
 }  // namespace
 
 void polish(const SearchModel& search, const Limits& limits, Work& work, Plan& plan) {
   if (!nlopt_is_built()) return;
-  std::vector<PlannedPush> result, stretch;
-  const auto finish_stretch = [&] {
-    for (PlannedPush& push : polished(search, limits, work, stretch)) {
-      result.push_back(std::move(push));
-    }
-    stretch.clear();
-  };
-  for (const PlannedPush& push : plan.pushes) {
-    if (!std::holds_alternative<Roll>(push.push)) {
-      stretch.push_back(push);
-      continue;
-    }
-    finish_stretch();
-    result.push_back(push);
-  }
-  finish_stretch();
-  plan.pushes = std::move(result);
+  change_stretches(plan, [&](std::vector<PlannedPush>& pushes) {
+    tighten(search, limits, work, pushes);
+    if (pushes.size() >= 2) bend(search, limits, work, pushes);
+  });
 }
 
 }  // namespace prehensile

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mechanics/certificate_evidence.h"
 #include "planner/bounds.h"
 #include "planner/confines.h"
 #include "planner/confines_check.h"
+#include "planner/costs.h"
 #include "planner/exact_check.h"
 #include "planner/planner.h"
 #include "planner/point_margin.h"
@@ -109,6 +111,46 @@ bool agrees(double stated, double computed) {
   return std::abs(stated - computed) <= kCostTolerance * std::max(1.0, computed);
 }
 
+/// What the pads take along a push, otherwise than friction_work: point by point in many
+/// short steps, or over soft points as force times travel.
+double work_along(const Model& model, const PlannedPush& push) {
+  constexpr int kSteps = 64;
+  const auto contact = static_cast<std::size_t>(contact_of(push.push));
+  const double share = model.contacts[contact].grip_share;
+  const PlanarPose& from = push.start.X_HO;
+  const PlanarPose& to = push.end.X_HO;
+  const Vec2 d = finger_in_object(to) - finger_in_object(from);
+  const double turn = to.theta - from.theta;
+  if (model.has_soft_points())
+    return share * model.F * std::hypot(d.norm(), model.c * turn);
+  double work = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double done = (i + 0.5) / kSteps;
+    const double theta = from.theta + done * turn;
+    const PlanarPose X_HO = pose_from_finger(finger_in_object(from) + done * d, theta);
+    const Vec2 v = -rotated(theta, d);
+    const PlanarTwist V(v.x(), v.y(), turn);
+    work += friction_power(grasp_at(model, X_HO, Vec2::Zero()), V);
+  }
+  return share * work / kSteps;
+}
+
+/// The work that a plan states, pushes by themselves: rolls have one formula.
+bool work_is_right(const Model& model, const Plan& plan) {
+  constexpr double kTolerance = 0.02;  // where clipping takes points away one by one
+  double stated = plan.work;
+  double work = 0.0;
+  for (const PlannedPush& push : plan.pushes) {
+    if (!model.scene.cost) return plan.work == 0.0 && plan.grip_changes == 0.0;
+    if (std::holds_alternative<Roll>(push.push)) {
+      stated -= friction_work(model, push);
+    } else {
+      work += work_along(model, push);
+    }
+  }
+  return std::abs(work - stated) <= kTolerance * std::max(work, plan.work);
+}
+
 /// S, T, J and the bound counted again, T from the poses instead of the pushes. Costs of
 /// pushes that cannot be replayed at all are not counted: they are wrong.
 bool costs_are_right(const Model& model, const Plan& plan) {
@@ -126,8 +168,12 @@ bool costs_are_right(const Model& model, const Plan& plan) {
     const double roll = radius * (push.end.psi - push.start.psi);
     travel += std::hypot(d.norm(), turn, roll);
   }
+  const CostWeights price = prices(model);
+  const double cost = plan.placements + price.travel * travel / model.L +
+                      price.work * counted.work + price.grip_change * plan.grip_changes;
   return agrees(plan.placements, counted.placements) && agrees(plan.travel, travel) &&
-         agrees(plan.cost, plan.placements + travel / model.L) &&
+         agrees(plan.work, counted.work) && plan.grip_changes == counted.grip_changes &&
+         work_is_right(model, plan) && agrees(plan.cost, cost) &&
          agrees(plan.published_cost, counted.published_cost);
 }
 

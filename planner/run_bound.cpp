@@ -39,8 +39,8 @@ bool run_path(const RunQuestion& question, RunPath& path) noexcept {
   if (!program.is_ahead) return false;
   RunBarrier barrier(program);
   barrier.start();
-  for (double weight = kFirstWeight * question.cap; weight > kPathWeight * question.cap;
-       weight *= kReduction) {
+  const double last = std::max(kPathWeight * question.cap, question.last_weight);
+  for (double weight = kFirstWeight * question.cap; weight > last; weight *= kReduction) {
     if (!barrier.centre(weight)) return false;
     if (dual_bound(program, barrier.multipliers()) >= question.cap) return false;
   }

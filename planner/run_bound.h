@@ -51,6 +51,10 @@ struct RunQuestion {
   double cap = 0.0;  ///< [m] travel of interest: more need not be proved
   /// Paths that are straight between the depths only: E = 0.
   bool chords_only = false;
+  /// Of paths: down to this [m], or to 1e-4 of the cap, goes the weight of the barrier,
+  /// from 0.03 of the cap. Paths of heavier ones are longer, and keep farther from the
+  /// borders of the laws.
+  double last_weight = 0.0;
 };
 
 /// A bound on the travel of every run from the start to the goal that is no longer than

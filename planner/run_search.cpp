@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "planner/bounds.h"
+#include "planner/costs.h"
 #include "planner/push_search.h"
 #include "planner/run_bound.h"
 
@@ -24,8 +25,11 @@ constexpr std::array<Inwards, 4> kInwards = {
 /// The same where the points themselves say how legs may turn.
 constexpr std::array<Inwards, 4> kInwardsOfPoints = {
     {{0.0, 0.0}, {0.35, 0.05}, {0.7, 0.0}, {0.7, 0.12}}};
+/// Paths are near the borders of the laws first, and farther from them where that helps
+/// no more: weights of the program's barrier over L.
+constexpr std::array kLastWeights = {0.0, 2e-3, 1e-2};
 constexpr double kPerPush = 2e-3;  // of J, that one push less is worth
-constexpr double kDearest = 5.0;   // J of plans looked for
+constexpr double kLongest = 4.0;   // travel over L of plans looked for
 constexpr double kUsedTolerance = 0.9;
 constexpr std::int64_t kProgram = 2000;  // work of one convex program, in stick tests
 
@@ -100,11 +104,11 @@ class RunSearch {
   }
 
   void try_contact(int contact, const Ends& ends) {
-    const double L = search_.model->L;
     const double c = search_.model->c;
     const Vec2 d = ends.arc.centre - start_.p_OF;
     const double off = ends.arc.arc.norm() + ends.arc.widest();
-    const double cap = (std::min(to_beat_, kDearest) - 1.0) * L;
+    const double cap = std::min((to_beat_ - 1.0) * placement_length(*search_.model),
+                                kLongest * search_.model->L);
     const RunLaw& law = laws_.contacts[contact];
     const auto is_behind = [&](int k) {
       return law.back[k] <= 0.0 &&
@@ -114,7 +118,8 @@ class RunSearch {
     const bool near = std::hypot(std::max(0.0, d.norm() - off), c * least_turn) < cap;
     if (!near || law.mu <= 0.0 || is_behind(0) || is_behind(1)) return;
     const double before = to_beat_;
-    const auto follow_all = [&](const Steering& steering, const Inwards& inwards) {
+    const auto follow_all = [&](const Steering& steering, const Inwards& inwards,
+                                double last_weight = kLastWeights.front()) {
       RunLaws laws;
       laws.C = laws_.C;
       laws.reach = laws_.reach;
@@ -135,7 +140,8 @@ class RunSearch {
                      .turn_low = ends.turn - ends.half,
                      .turn_high = ends.turn + ends.half,
                      .cap = cap,
-                     .chords_only = true},
+                     .chords_only = true,
+                     .last_weight = last_weight * search_.model->L},
                     path)) {
         return false;
       }
@@ -148,6 +154,9 @@ class RunSearch {
     for (const Inwards& inwards : kInwards) {
       if (to_beat_ < before) return;
       follow_all({search_}, inwards);
+    }
+    for (std::size_t i = 1; i < kLastWeights.size() && to_beat_ >= before; ++i) {
+      follow_all({search_}, {}, kLastWeights[i]);
     }
     if (can_roll(search_.model->scene.object)) return;
     if (!envelope_) envelope_.emplace(*search_.model, search_.margin);
@@ -195,20 +204,22 @@ std::optional<Chain> search_runs(const SearchModel& search, const FlatState& sta
   return RunSearch(search, start, to_beat, work).run(goal, limits);
 }
 
-void improve_by_run(const SearchModel& search, const Limits& limits, Work& work,
+bool improve_by_run(const SearchModel& search, const Limits& limits, Work& work,
                     Plan& plan) {
   const Model& model = *search.model;
-  if (!search.exact_everywhere || plan.rolls() || plan.pushes.empty()) return;
+  if (!search.exact_everywhere || plan.rolls() || plan.pushes.empty()) return false;
   const Goal goal = planar_goal(*model.scene.goal);
   account(model, plan);
-  if (plan.cost <= kGoodEnough * guide_bound(model, plan.start, goal)) return;
+  if (plan.cost <= kGoodEnough * guide_bound(model, plan.start, goal)) return false;
   const FlatState from = flat_state(plan.start);
   const auto found = search_runs(search, from, goal, plan.cost, limits, work);
-  if (!found) return;
+  if (!found) return false;
   Plan better = plan;
   better.pushes.clear();
   append_chain(search, from, *found, better);
-  if (reaches(goal, better.goal)) plan = std::move(better);
+  if (!reaches(goal, better.goal)) return false;
+  plan = std::move(better);
+  return true;
 }
 
 }  // namespace prehensile

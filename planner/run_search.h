@@ -15,8 +15,8 @@ std::optional<Chain> search_runs(const SearchModel& search, const FlatState& sta
                                  Work& work);
 
 /// Replaces a plan over round pads that may be far from optimal by one of a single
-/// placement, if there is one that is cheaper.
-void improve_by_run(const SearchModel& search, const Limits& limits, Work& work,
+/// placement, if there is one that is cheaper; whether it did.
+bool improve_by_run(const SearchModel& search, const Limits& limits, Work& work,
                     Plan& plan);
 
 }  // namespace prehensile

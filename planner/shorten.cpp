@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "planner/chain_search.h"
+#include "planner/costs.h"
 
 namespace prehensile {
 namespace {
@@ -153,7 +154,7 @@ double cost_of(const SearchModel& search, const std::vector<Move>& moves) {
     length += flat_length(search, moves[k]);
     if (k == 0 || moves[k].contact != moves[k - 1].contact) ++placements;
   }
-  return placements + length / search.model->L;
+  return placements + length / placement_length(*search.model);
 }
 
 std::vector<Move> shortened(const SearchModel& search, const std::vector<Move>& moves,

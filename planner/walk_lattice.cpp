@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "planner/chain.h"
+#include "planner/costs.h"
 #include "planner/holding.h"
 #include "scene/outline.h"
 
@@ -111,7 +112,7 @@ void WalkLattice::add_edges(const KappaRanges& slopes, int contact, int to, doub
     const auto [lo, hi] = slopes.intervals[i];
     const double least = std::clamp(0.0, lo, hi);
     edges.push_back({to, contact, length * lo, length * hi,
-                     length * std::sqrt(1.0 + least * least) / model_.L});
+                     length * std::sqrt(1.0 + least * least) / placement_length(model_)});
   }
 }
 

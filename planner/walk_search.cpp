@@ -9,6 +9,7 @@
 #include "planner/baselines.h"
 #include "planner/chain.h"
 #include "planner/confines.h"
+#include "planner/costs.h"
 #include "planner/shorten.h"
 #include "planner/walk_lattice.h"
 
@@ -95,7 +96,7 @@ class WalkSearch {
     for (int i = 0; i < goals_.count; ++i) {
       least = std::min(least, (goals_.places[i].p_OF - lattice_.place(node)).norm());
     }
-    return least / search_.model->L;
+    return least / placement_length(*search_.model);
   }
 
   std::optional<WalkEnd> cheapest_walk() {

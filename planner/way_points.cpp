@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "planner/costs.h"
+
 namespace prehensile {
 namespace {
 
@@ -72,7 +74,7 @@ void add_way_point(const Steering& steering, double theta_start, const GoalPlace
                    BestWayPoints& best) noexcept {
   const SearchModel& search = steering.search;
   const double least = 1.0 + (first.contact != second.contact) +
-                       (first.length + second.length) / search.model->L;
+                       (first.length + second.length) / placement_length(*search.model);
   if (least >= best.worst_cost()) return;
   chain.count = 2;
   chain.legs[0] = first;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "planner/costs.h"
 #include "planner/portals.h"
 #include "planner/slab_travel.h"
 #include "scene/outline.h"
@@ -318,7 +319,7 @@ WordScene word_scene(const Model& model, const RunLaws& laws) {
   WordScene scene;
   scene.laws = &laws;
   scene.c = model.c;
-  scene.L = model.L;
+  scene.L = longest_placement_length(model);
   scene.outline = model.pad_face;
   scene.portals = portals_of(scene.outline);
   return scene;

@@ -7,6 +7,7 @@
 
 #include "planner/bounds.h"
 #include "planner/chain.h"
+#include "planner/costs.h"
 #include "planner/goal.h"
 #include "planner/polish.h"
 #include "planner/push_search.h"

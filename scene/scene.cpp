@@ -361,6 +361,11 @@ std::vector<Fault> check(const Scene& scene) {
       checker.in_range("uncertainty." + w.field, w.value, w.least, w.most, w.unit);
     }
   }
+  if (scene.cost) {
+    checker.in_range("cost.travel", scene.cost->travel, 0.01, 100.0, "");
+    checker.in_range("cost.work", scene.cost->work, 0.0, 1e4, "1/J");
+    checker.in_range("cost.grip_change", scene.cost->grip_change, 0.0, 100.0, "");
+  }
   if (scene.limits) check_limits(checker, scene);
   if (scene.obstacles) check_obstacles(checker, *scene.obstacles);
   if (checker.clean()) check_start_is_held(checker, scene);

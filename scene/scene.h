@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "scene/confines.h"
+#include "scene/cost_weights.h"
 #include "scene/frames.h"
 #include "scene/shapes.h"
 #include "scene/uncertainty.h"
@@ -241,6 +242,7 @@ struct Scene {
   Overhang overhang = Overhang::kClip;
   Grasp start;
   std::optional<Goal> goal;
+  std::optional<CostWeights> cost;  ///< unset: those of CostWeights
   std::optional<GraspLimits> limits;
   std::optional<Obstacles> obstacles;
   std::optional<CalibrationRecord> calibration;

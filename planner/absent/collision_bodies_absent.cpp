@@ -9,17 +9,19 @@ bool collisions_are_built() { return false; }
 CollisionBodies::CollisionBodies(const Model& /*model*/) {}
 CollisionBodies::~CollisionBodies() = default;
 
-double CollisionBodies::hand_distance(const PlanarPose& /*X_WH*/,
-                                      double /*enough*/) const {
+double CollisionBodies::hand_distance(const PlanarPose& /*X_WH*/, double /*enough*/,
+                                      double /*z*/) const {
   return 0.0;
 }
 
-double CollisionBodies::object_distance(const PlanarPose& /*X_WO*/,
-                                        double /*enough*/) const {
+double CollisionBodies::object_distance(const PlanarPose& /*X_WO*/, double /*enough*/,
+                                        double /*z*/) const {
   return 0.0;
 }
 
 double CollisionBodies::hand_reach() const { return 0.0; }
+
+double CollisionBodies::object_reach() const { return 0.0; }
 
 std::int64_t CollisionBodies::queries() const { return 0; }
 

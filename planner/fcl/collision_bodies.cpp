@@ -123,7 +123,7 @@ double distance_from_plane(const Solid& body, const Eigen::Isometry3d& X_WB,
 
 struct CollisionBodies::Bodies {
   std::vector<Solid> fixture, hand, object;
-  double hand_reach = 0.0;
+  double hand_reach = 0.0, object_reach = 0.0;
   std::int64_t queries = 0;
 
   double distance(const std::vector<Solid>& moving, const Eigen::Isometry3d& X_W,
@@ -177,19 +177,26 @@ CollisionBodies::CollisionBodies(const Model& model)
   for (const ConvexBody& body : obstacles.hand) {
     bodies_->hand_reach = std::max(bodies_->hand_reach, reach_about_z(body));
   }
+  for (const ConvexBody& body : object_bodies(model)) {
+    bodies_->object_reach = std::max(bodies_->object_reach, reach_about_z(body));
+  }
 }
 
 CollisionBodies::~CollisionBodies() = default;
 
-double CollisionBodies::hand_distance(const PlanarPose& X_WH, double enough) const {
-  return bodies_->distance(bodies_->hand, in_space(X_WH, 0.0), enough);
+double CollisionBodies::hand_distance(const PlanarPose& X_WH, double enough,
+                                      double z) const {
+  return bodies_->distance(bodies_->hand, in_space(X_WH, z), enough);
 }
 
-double CollisionBodies::object_distance(const PlanarPose& X_WO, double enough) const {
-  return bodies_->distance(bodies_->object, in_space(X_WO, 0.0), enough);
+double CollisionBodies::object_distance(const PlanarPose& X_WO, double enough,
+                                        double z) const {
+  return bodies_->distance(bodies_->object, in_space(X_WO, z), enough);
 }
 
 double CollisionBodies::hand_reach() const { return bodies_->hand_reach; }
+
+double CollisionBodies::object_reach() const { return bodies_->object_reach; }
 
 std::int64_t CollisionBodies::queries() const { return bodies_->queries; }
 

@@ -2,16 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <mutex>
 #include <utility>
 
-#include <ompl/util/Console.h>
-#include <ompl/util/RandomNumbers.h>
-
 #include "planner/ompl/push_planner.h"
+#include "planner/ompl/seeded_run.h"
 #include "planner/ompl/solution.h"
 #include "planner/ompl/stock_planners.h"
-#include "scene/split_mix.h"
 
 namespace prehensile {
 namespace {
@@ -39,39 +35,6 @@ constexpr std::int64_t kMostBudget = std::int64_t{1} << 60;
 /// A planner that has a plan and draws so many states without finding a motion worth a
 /// look will find none.
 constexpr std::int64_t kMostIdleStates = 3'000;
-
-/// OMPL's seeds are never 0 and have 32 bits; neighbouring seeds give unrelated streams.
-std::uint_fast32_t ompl_seed(std::uint64_t seed) {
-  return static_cast<std::uint32_t>(split_mix(seed) >> 32) | 1U;
-}
-
-/// While it lives, OMPL's random numbers follow from the seed and its log is quiet.
-///
-/// Both belong to the whole process in OMPL, so one random planner runs at a time. Every
-/// generator that OMPL makes takes its seed from one sequence; `setSeed` starts that
-/// sequence again. Once a generator exists OMPL also logs an error saying that this is
-/// useless, which holds for generators that exist already: here all of them are made
-/// later.
-class SeededRun {
- public:
-  explicit SeededRun(std::uint64_t seed)
-      : lock_(one_at_a_time()), log_(ompl::msg::getOutputHandler()) {
-    ompl::msg::noOutputHandler();
-    ompl::RNG::setSeed(ompl_seed(seed));
-  }
-  ~SeededRun() { ompl::msg::useOutputHandler(log_); }
-  SeededRun(const SeededRun&) = delete;
-  SeededRun& operator=(const SeededRun&) = delete;
-
- private:
-  static std::mutex& one_at_a_time() {
-    static std::mutex mutex;
-    return mutex;
-  }
-
-  std::lock_guard<std::mutex> lock_;
-  ompl::msg::OutputHandler* log_;
-};
 
 /// Ends a planner of OMPL: by work, by the stop flag, and by the clock only if the
 /// options set a time limit.

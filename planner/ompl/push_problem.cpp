@@ -4,6 +4,7 @@
 
 #include <ompl/base/ScopedState.h>
 
+#include "planner/costs.h"
 #include "planner/goal.h"
 #include "planner/ompl/push_controls.h"
 #include "planner/ompl/push_objective.h"
@@ -111,10 +112,11 @@ PushProblem::PushProblem(const SearchModel& search, const Grasp& start, const Go
   space_->write(state_of(start), state.get());
   definition_->addStartState(state.get());
   definition_->setGoal(goal_);
-  const auto objective = std::make_shared<PushObjective>(si_, search.model->L);
+  const auto objective =
+      std::make_shared<PushObjective>(si_, placement_length(*search.model));
   const double straight = goal_->distanceGoal(state.get());
   objective->setCostThreshold(
-      ob::Cost((1.0 + kOptimal) * (1.0 + straight / search.model->L)));
+      ob::Cost((1.0 + kOptimal) * (1.0 + straight / placement_length(*search.model))));
   definition_->setOptimizationObjective(objective);
 }
 

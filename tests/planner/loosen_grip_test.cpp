@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "planner/costs.h"
 #include "planner/exact_check.h"
 #include "planner/planner.h"
 #include "planner/replay.h"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <ompl/util/Console.h>
 
+#include "planner/costs.h"
 #include "planner/exact_check.h"
 #include "planner/frame.h"
 #include "planner/ompl/stock_planners.h"

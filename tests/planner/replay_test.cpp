@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "planner/costs.h"
 #include "planner/planner.h"
 #include "tests/planner/planner_cases.h"
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "planner/costs.h"
 #include "planner/push_search.h"
 #include "problems/published_regrasps.h"
 #include "tests/planner/executed_pushes.h"

@@ -1,0 +1,93 @@
+#include "planner/finish.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "planner/costs.h"
+#include "planner/exact_check.h"
+#include "planner/loosen_grip.h"
+#include "planner/meet_end.h"
+#include "planner/polish.h"
+#include "planner/repair.h"
+#include "planner/run_search.h"
+#include "planner/word_plans.h"
+
+namespace prehensile {
+namespace {
+
+/// Puts a plan to the exact check, with the grip loosened if that passes.
+bool passes_check(const SearchModel& search, const PlanOptions& options, Work& work,
+                  Plan& plan, std::string& why) {
+  const Model& model = *search.model;
+  meet_ends(model, options.transition, plan);
+  Plan loosened = plan;
+  if (loosen_grip(search, work, loosened)) {
+    if (check_exactly(model, options.transition, loosened, &why)) {
+      plan = std::move(loosened);
+      return true;
+    }
+    plan.instants = loosened.instants;
+  }
+  return check_exactly(model, options.transition, plan, &why);
+}
+
+bool is_same_way(const Plan& a, const Plan& b) {
+  return std::ranges::equal(a.pushes, b.pushes,
+                            [](const PlannedPush& one, const PlannedPush& other) {
+                              return one.start == other.start && one.end == other.end &&
+                                     contact_of(one.push) == contact_of(other.push);
+                            });
+}
+
+/// A plan found and a run of one placement in its stead, each polished, the cheapest
+/// first.
+std::vector<Plan> polished(const SearchModel& search, const Limits& limits, Work& work,
+                           const Plan& plan) {
+  std::vector<Plan> plans;
+  const auto keep_polished = [&](Plan one) {
+    polish(search, limits, work, one);
+    plans.push_back(one);
+    if (improve_by_words(search, limits, work, one)) plans.push_back(one);
+  };
+  Plan run = plan;
+  if (improve_by_run(search, limits, work, run)) keep_polished(run);
+  keep_polished(plan);
+  for (Plan& one : plans) account(*search.model, one);
+  std::ranges::stable_sort(plans, {}, &Plan::cost);
+  return plans;
+}
+
+}  // namespace
+
+std::string finish(const SearchModel& search, const PlanOptions& options,
+                   const Limits& limits, Work& work, Plan& plan) {
+  if (work.meter) work.meter->enter("polish");
+  std::string why;
+  std::vector<Plan> failed;
+  const auto passes = [&](Plan one) {
+    const auto is_same = [&](const Plan& other) { return is_same_way(one, other); };
+    if (std::ranges::any_of(failed, is_same)) return false;
+    failed.push_back(one);
+    one.instants = plan.instants;
+    const bool passed = passes_check(search, options, work, one, why);
+    plan.instants = one.instants;
+    if (passed) plan = std::move(one);
+    return passed;
+  };
+  const Plan found = plan;
+  if (options.polish &&
+      std::ranges::any_of(polished(search, limits, work, found), passes)) {
+    return {};
+  }
+  if (passes(found)) return {};
+  const std::string fault = why;
+  if (!options.polish) return fault;
+  if (work.meter) work.meter->enter("repair");
+  for (Plan& one : std::vector<Plan>(failed)) {
+    if (repair(search, limits, work, one) && passes(one)) return {};
+  }
+  return fault;
+}
+
+}  // namespace prehensile

@@ -1,0 +1,17 @@
+/// What becomes of a plan that a search found, until it may be returned.
+#pragma once
+
+#include <string>
+
+#include "planner/limits.h"
+
+namespace prehensile {
+
+/// Polishes a plan, loosens the grip where the scene lets it, and puts it to the exact
+/// check: the cheapest version first, as it was found last; then, if all fail, each of
+/// them repaired. `plan` becomes the first that passes. Returns why none does, of the
+/// plan as it was found; empty if one passes.
+std::string finish(const SearchModel& search, const PlanOptions& options,
+                   const Limits& limits, Work& work, Plan& plan);
+
+}  // namespace prehensile

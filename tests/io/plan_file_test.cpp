@@ -67,6 +67,8 @@ void expect_same(const Plan& a, const Plan& b) {
   }
   expect_same(a.cost, b.cost);
   expect_same(a.travel, b.travel);
+  EXPECT_EQ(a.work, b.work);
+  EXPECT_EQ(a.grip_changes, b.grip_changes);
   expect_same(a.lower_bound, b.lower_bound);
   expect_same(a.published_cost, b.published_cost);
   EXPECT_EQ(a.bound_is_trivial, b.bound_is_trivial);

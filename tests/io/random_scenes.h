@@ -211,6 +211,10 @@ inline Scene random_scene(Random& random) {
     const double least = of_space.log_in(0.1, 50.0);
     scene.gripper.grip_range = Vec2(least, of_space.in(1.0, 5.0) * least);
   }
+  if (of_space.chance(0.3)) {
+    scene.cost = {of_space.log_in(0.01, 100.0), of_space.in(0.0, 1e4),
+                  of_space.in(0.0, 100.0)};
+  }
   return scene;
 }
 
@@ -260,6 +264,10 @@ inline Plan random_plan(Random& random, const Model& model) {
   plan.placements = 1.0;
   plan.lower_bound = random.in(0.5, 1.0);
   plan.travel = random.in(0.0, 1.0);
+  if (model.scene.cost) {
+    plan.work = random.in(0.0, 10.0);
+    plan.grip_changes = random.below(5);
+  }
   const int pushes = 1 + random.below(5);
   for (int i = 0; i < pushes; ++i) {
     PlannedPush planned;

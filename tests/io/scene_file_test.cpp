@@ -141,6 +141,7 @@ TEST(SceneFile, RandomScenesReturnUnchanged) {
       EXPECT_EQ(file.scene.goal->theta, scene.goal->theta);
     }
     EXPECT_EQ(file.scene.uncertainty, scene.uncertainty);
+    EXPECT_EQ(file.scene.cost, scene.cost);
     for (std::size_t k = 0; k < scene.pushers.size(); ++k) {
       EXPECT_EQ(file.scene.pushers[k].normal_angle, scene.pushers[k].normal_angle);
       EXPECT_EQ(file.scene.pushers[k].name, scene.pushers[k].name);
@@ -160,6 +161,20 @@ TEST(SceneFile, UncertaintyIsWrittenOnlyIfStated) {
                BadInput);
   EXPECT_THROW(parse_scene(kShortest, "shortest", {"uncertainty={fricton: 0.1}"}),
                BadInput);
+}
+
+TEST(SceneFile, PricesAreWrittenOnlyIfStated) {
+  Scene scene = parse_scene(kShortest, "shortest").scene;
+  EXPECT_EQ(scene_to_yaml(scene).find("cost"), std::string::npos);
+  scene = parse_scene(kShortest, "shortest", {"cost={work: 2}"}).scene;
+  EXPECT_EQ(scene.cost, CostWeights{.work = 2.0});
+  scene.cost->travel = kNan;
+  ASSERT_EQ(check(scene).size(), 1u);
+  EXPECT_EQ(check(scene)[0].field, "cost.travel");
+  for (const char* wrong : {"cost={travel: 0}", "cost={work: -1}",
+                            "cost={grip_change: x}", "cost={placement: 1}", "cost=1"}) {
+    EXPECT_THROW(parse_scene(kShortest, "shortest", {wrong}), BadInput) << wrong;
+  }
 }
 
 TEST(SceneFile, WholeDegreesReturnAsWholeDegrees) {

@@ -21,14 +21,15 @@ double run_bound(const RunQuestion& question) noexcept {
   RunBarrier barrier(program);
   barrier.start();
   double best = program.level.back();  // no way is shorter than it is deep
-  for (double weight = kFirstWeight * question.cap; weight > kLastWeight * question.cap;
-       weight *= kReduction) {
+  double weight = kFirstWeight * question.cap;
+  while (weight > kLastWeight * question.cap) {
     if (!barrier.centre(weight)) break;
     best = std::max(best, dual_bound(program, barrier.multipliers()));
     if (best >= question.cap) return question.cap;
     // What may still be proved to be no less than the cap is worth more steps.
     const double value = barrier.objective();
     if (value < question.cap && value - best <= kNearlyOptimal * question.cap) break;
+    weight *= kReduction;
   }
   return std::min(best, question.cap);
 }
@@ -40,9 +41,11 @@ bool run_path(const RunQuestion& question, RunPath& path) noexcept {
   RunBarrier barrier(program);
   barrier.start();
   const double last = std::max(kPathWeight * question.cap, question.last_weight);
-  for (double weight = kFirstWeight * question.cap; weight > last; weight *= kReduction) {
+  double weight = kFirstWeight * question.cap;
+  while (weight > last) {
     if (!barrier.centre(weight)) return false;
     if (dual_bound(program, barrier.multipliers()) >= question.cap) return false;
+    weight *= kReduction;
   }
   const RunLaw& law = question.laws->contacts[question.contact];
   const auto place = [&](double depth, double lateral) -> Vec2 {

@@ -14,6 +14,7 @@ using Way = std::vector<HandPose>;
 
 constexpr double kResolution = 5e-6;  // [m]
 constexpr double kLeastReach = 1e-3;  // [m]
+constexpr int kMostLooks = 5000;      // at one straight way: it would hug an obstacle
 
 /// Length that no point of hand and object exceeds on a straight way [m].
 double longest_way(const HandPose& from, const HandPose& to, double reach) {
@@ -88,7 +89,8 @@ bool TransitRoom::is_clear(const HandPose& from, const HandPose& to) const {
   // What touches has a distance of 0, so something has to be left of any need.
   const double need = std::max(0.0, clearance_ - 0.5 * kClearanceTolerance);
   const double way = longest_way(from, to, reach_);
-  for (double done = 0.0;;) {
+  double done = 0.0;
+  for (int look = 0; look < kMostLooks; ++look) {
     const double left = way - done;
     const double enough = left + kResolution;
     const HandPose at = between(from, to, way > 0.0 ? done / way : 0.0);
@@ -99,6 +101,7 @@ bool TransitRoom::is_clear(const HandPose& from, const HandPose& to) const {
     if (room >= left) return true;
     done += room - 0.5 * kResolution;
   }
+  return false;
 }
 
 TransitRoom::Box TransitRoom::box_around(const HandPose& a, const HandPose& b) const {

@@ -32,12 +32,20 @@ bool passes_check(const SearchModel& search, const PlanOptions& options, Work& w
   return check_exactly(model, options.transition, plan, &why);
 }
 
+bool is_same_push(const PlannedPush& a, const PlannedPush& b) {
+  if (a.push.index() != b.push.index() || a.start != b.start || a.end != b.end) {
+    return false;
+  }
+  if (contact_of(a.push) != contact_of(b.push)) return false;
+  if (std::holds_alternative<Roll>(a.push)) return true;
+  const LinearPush one = as_linear(a.push);
+  const LinearPush other = as_linear(b.push);
+  return one.place == other.place && one.e == other.e && one.travel == other.travel &&
+         one.turn == other.turn;
+}
+
 bool is_same_way(const Plan& a, const Plan& b) {
-  return std::ranges::equal(a.pushes, b.pushes,
-                            [](const PlannedPush& one, const PlannedPush& other) {
-                              return one.start == other.start && one.end == other.end &&
-                                     contact_of(one.push) == contact_of(other.push);
-                            });
+  return std::ranges::equal(a.pushes, b.pushes, is_same_push);
 }
 
 /// A plan found and a run of one placement in its stead, each polished, the cheapest

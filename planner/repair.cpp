@@ -34,7 +34,7 @@ class StretchRepair {
 
   /// False if no push slips, or no way-points were found with which none does.
   bool run(std::vector<PlannedPush>& pushes) {
-    if (!read_stretch(search_, pushes, stretch_)) return false;
+    if (!read_stretch(search_, pushes, stretch_) || any_by_point()) return false;
     NonlinearProgram program;
     for (std::size_t i = 0; i + 1 < pushes.size(); ++i) {
       const FlatState at = flat_state(pushes[i].end);
@@ -55,6 +55,13 @@ class StretchRepair {
   }
 
  private:
+  /// An object turns about a point as the pads let it: its angle is no variable.
+  bool any_by_point() const {
+    return std::ranges::any_of(stretch_.contacts, [&](int contact) {
+      return search_.contacts[contact].stick.is_point;
+    });
+  }
+
   FlatState state_at(std::span<const double> x, std::size_t point) const {
     if (3 * point == x.size()) return stretch_.end;
     return {{x[3 * point], x[3 * point + 1]}, x[3 * point + 2] / search_.model->c};

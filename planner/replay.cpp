@@ -138,10 +138,10 @@ double work_along(const Model& model, const PlannedPush& push) {
 /// The work that a plan states, pushes by themselves: rolls have one formula.
 bool work_is_right(const Model& model, const Plan& plan) {
   constexpr double kTolerance = 0.02;  // where clipping takes points away one by one
+  if (!model.scene.cost) return plan.work == 0.0 && plan.grip_changes == 0.0;
   double stated = plan.work;
   double work = 0.0;
   for (const PlannedPush& push : plan.pushes) {
-    if (!model.scene.cost) return plan.work == 0.0 && plan.grip_changes == 0.0;
     if (std::holds_alternative<Roll>(push.push)) {
       stated -= friction_work(model, push);
     } else {

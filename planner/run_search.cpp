@@ -26,7 +26,7 @@ constexpr std::array<Inwards, 4> kInwards = {
 constexpr std::array<Inwards, 4> kInwardsOfPoints = {
     {{0.0, 0.0}, {0.35, 0.05}, {0.7, 0.0}, {0.7, 0.12}}};
 /// Paths are near the borders of the laws first, and farther from them where that helps
-/// no more: weights of the program's barrier over L.
+/// no more: weights of the program's barrier over L. Of lines: points are aimed anew.
 constexpr std::array kLastWeights = {0.0, 2e-3, 1e-2};
 constexpr double kPerPush = 2e-3;  // of J, that one push less is worth
 constexpr double kLongest = 4.0;   // travel over L of plans looked for
@@ -155,8 +155,10 @@ class RunSearch {
       if (to_beat_ < before) return;
       follow_all({search_}, inwards);
     }
-    for (std::size_t i = 1; i < kLastWeights.size() && to_beat_ >= before; ++i) {
-      follow_all({search_}, {}, kLastWeights[i]);
+    if (!search_.contacts[contact].stick.is_point) {
+      for (std::size_t i = 1; i < kLastWeights.size() && to_beat_ >= before; ++i) {
+        follow_all({search_}, {}, kLastWeights[i]);
+      }
     }
     if (can_roll(search_.model->scene.object)) return;
     if (!envelope_) envelope_.emplace(*search_.model, search_.margin);

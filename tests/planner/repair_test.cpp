@@ -4,7 +4,9 @@
 
 #include "optimisation/nonlinear_program.h"
 #include "planner/exact_check.h"
+#include "planner/goal.h"
 #include "planner/push_search.h"
+#include "planner/stretch.h"
 #include "primitives/uncertainty.h"
 #include "problems/published_regrasps.h"
 #include "tests/planner/planner_cases.h"
@@ -59,6 +61,24 @@ TEST(Repair, MakesPushesStickThatSlipWithinTheMargin) {
     ++repaired;
   }
   EXPECT_EQ(repaired, nlopt_is_built() ? 4 : 0);
+}
+
+/// A plan of two pushes with a way-point that the first cannot push to.
+TEST(Repair, BringsAWayPointBack) {
+  Case one(published_tee(20));
+  ASSERT_EQ(one.plan.pushes.size(), 2U);
+  Stretch stretch;
+  ASSERT_TRUE(read_stretch(one.search, one.plan.pushes, stretch));
+  FlatState middle = flat_state(one.plan.pushes[0].end);
+  middle.p_OF.y() -= 0.012;
+  Plan moved = one.plan;
+  moved.pushes.clear();
+  append_move(one.search, {stretch.contacts[0], stretch.start, middle}, moved);
+  append_move(one.search, {stretch.contacts[1], middle, stretch.end}, moved);
+  ASSERT_FALSE(one.passes(moved));
+  const Limits limits(one.options, one.work);
+  ASSERT_EQ(repair(one.search, limits, one.work, moved), nlopt_is_built());
+  EXPECT_EQ(one.passes(moved), nlopt_is_built());
 }
 
 TEST(Repair, LeavesPlansAloneThatStick) {

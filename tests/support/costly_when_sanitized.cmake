@@ -18,6 +18,7 @@ set(costly_when_sanitized
   Proofs.GoalBesideTheMiddleLineOfACan
   PushCalibration.RecoversWhatMadeThePushes
   PushEstimate.IsHonestOverPads
+  Repair.MakesPushesStickThatSlipWithinTheMargin
   RobustPlan.ANominalPlanNeedNotWaitForTheWholeBudget
   RobustPlan.SaysSoWhereOnlyANominalPlanExists
   RunSuite.JobsDoNotChangeResults
@@ -42,5 +43,6 @@ set(costly_when_sanitized
   SpatialPushLaw.UpsideDownMovesAlike
   SpatialSensitivity.HoldsOnOneSideAtAChangeOfMode
   Steering.MovesOfOtherPadsSurviveADenseCheck
+  Transit.ArmsKeepClearOfThePosts
   WalkSearch.FindsLoopsWhereThePadsAreClipped
   WalkSearch.ReachesTheGoalByPushesThatStick)

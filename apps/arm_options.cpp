@@ -100,8 +100,8 @@ std::string write_arm_files(const ArmOptions& options, const Model& model,
   std::string out;
   for (const int push : motion.blocked_transits) {
     out += text(
-        "the way to push %d is straight and not clear of the obstacles: none that "
-        "is clear of them was found\n",
+        "the way to push %d is straight and not allowed: none was found that is clear of "
+        "obstacles, within limits, and on which the grasp holds the object\n",
         push + 1);
   }
   for (const std::string& file : options.files) {

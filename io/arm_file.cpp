@@ -105,9 +105,11 @@ std::vector<Note> notes_of(const PlanFile& file, const ArmMotion& motion,
     notes.push_back({std::move(key), yaml_text(value)});
   }
   for (const int push : motion.blocked_transits) {
-    notes.push_back({"transit_to_push_" + std::to_string(push + 1),
-                     yaml_text("straight, and not clear of the obstacles: no way that is "
-                               "clear of them was found, go another one")});
+    notes.push_back(
+        {"transit_to_push_" + std::to_string(push + 1),
+         yaml_text("straight, and not allowed: no way was found that is clear of "
+                   "obstacles, within limits, and on which the grasp holds "
+                   "the object")});
   }
   return notes;
 }

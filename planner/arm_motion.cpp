@@ -58,11 +58,8 @@ class MotionWriter {
   /// The push with this index goes on where the one before it left the pusher.
   bool continues(int index) const {
     if (index <= 0 || index >= static_cast<int>(plan_.pushes.size())) return false;
-    const Push& now = plan_.pushes[static_cast<std::size_t>(index)].push;
-    const Push& before = plan_.pushes[static_cast<std::size_t>(index - 1)].push;
-    return contact_of(now) == contact_of(before) &&
-           std::holds_alternative<Roll>(now) == std::holds_alternative<Roll>(before) &&
-           as_linear(now).place == as_linear(before).place;
+    const auto now = static_cast<std::size_t>(index);
+    return same_placement(plan_.pushes[now].push, plan_.pushes[now - 1].push);
   }
 
   /// The hand while the object, at X_HO in it, stands off the pusher by `gap`.
@@ -85,25 +82,21 @@ class MotionWriter {
          [&](double s) { return hand(X_HO, (1.0 - s) * limits_.clearance); });
   }
 
-  /// To the next placement with the object at X_HO in the hand, around obstacles if the
-  /// scene names any.
+  /// To the next placement with the object at X_HO in the hand.
   void write_transit(const HandPose& away, const PlanarPose& X_HO) {
     HandPose to = away;
     to.X_WH.theta =
         last_.X_WH.theta + wrapped(away.X_WH.theta - last_.X_WH.theta);  // the short way
-    std::vector<HandPose> way = {last_, to};
-    if (model_.scene.obstacles) {
-      auto clear = find_transit(model_, X_HO, last_, to, plan_.seed);
-      if (clear) {
-        way = std::move(*clear);
-      } else {
-        motion_.blocked_transits.push_back(push_);
-      }
+    const HeldObject held{X_HO, grip_ / model_.scene.gripper.grip_force};
+    auto way = find_transit(model_, held, last_, to, plan_.seed);
+    if (!way) {
+      motion_.blocked_transits.push_back(push_);
+      way = {last_, to};
     }
-    turns_ = way.back().X_WH.theta - away.X_WH.theta;
-    for (std::size_t i = 1; i < way.size(); ++i) {
-      const HandPose& from = way[i - 1];
-      const HandPose& next = way[i];
+    turns_ = way->back().X_WH.theta - away.X_WH.theta;
+    for (std::size_t i = 1; i < way->size(); ++i) {
+      const HandPose& from = (*way)[i - 1];
+      const HandPose& next = (*way)[i];
       const Vec2 step = translation(next.X_WH) - translation(from.X_WH);
       move(ArmPhase::kTransit, std::hypot(step.norm(), next.z - from.z),
            next.X_WH.theta - from.X_WH.theta, limits_.transit_speed, [&](double s) {

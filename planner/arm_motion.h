@@ -64,8 +64,9 @@ struct ArmSample {
 
 struct ArmMotion {
   std::vector<ArmSample> samples;
-  /// Indices of pushes before which no transit was found that keeps hand and object clear
-  /// of the obstacles of the scene; a straight one is written.
+  /// Indices of pushes before which no transit was found on which hand and object keep
+  /// clear of obstacles, the hand within its limits and the object in its place; a
+  /// straight one is written.
   std::vector<int> blocked_transits;
 };
 

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "mechanics/pad_law.h"
 #include "planner/obstacle_bodies.h"
 #include "planner/placement.h"
 #include "planner/separation.h"
@@ -148,8 +149,9 @@ class CollisionCheck {
     return {};
   }
 
-  bool transit_hits(const PlanarPose& X_HO, const HandPose& from,
+  bool transit_hits(const HeldObject& held, const HandPose& from,
                     const HandPose& to) const {
+    const PlanarPose& X_HO = held.X_HO;
     double reach = reach_;
     for (const ConvexBody& body : object_) {
       reach = std::max(reach, translation(X_HO).norm() + reach_about_z(body));
@@ -210,6 +212,29 @@ class CollisionCheck {
   double reach_ = 0.0;
 };
 
+/// The slack of gravity, in units of the friction force and a lever that is no shorter
+/// than half of the torque radius, changes by no more than gravity does in these.
+bool holds_all_along(const Model& model, const HeldObject& held, const HandPose& from,
+                     const HandPose& to) {
+  constexpr double kStep = 0.01;  // [rad]
+  const Vec2 g_W = model.scene.g_W / held.grip_share;
+  if (g_W.isZero(0.0)) return true;
+  const double turn = to.X_WH.theta - from.X_WH.theta;
+  const int parts = static_cast<int>(std::ceil(std::abs(turn) / kStep));
+  const double lever = (model.p_OCom - finger_in_object(held.X_HO)).norm();
+  const double rate = model.mass * g_W.norm() / model.F * (1.0 + lever / (0.5 * model.c));
+  const double reserve = parts > 0 ? 0.5 * rate * std::abs(turn) / parts : 0.0;
+  for (int i = 0; i <= parts; ++i) {
+    const double share = parts > 0 ? static_cast<double>(i) / parts : 0.0;
+    const double angle = between(from, to, share).X_WH.theta + held.X_HO.theta;
+    const PlanarGrasp grasp = grasp_at(model, held.X_HO, rotated(-angle, g_W));
+    if (!(grasp.count > 0 && gravity_slack_by_pad_law(model, grasp) > reserve)) {
+      return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 std::string confinement_fault(const Model& model,
@@ -246,12 +271,13 @@ bool hand_stays_within(const GraspLimits& limits, const HandPose& from,
   return end >= -kLimitTolerance && end <= high - low + kLimitTolerance;
 }
 
-bool transit_is_clear(const Model& model, const PlanarPose& X_HO, const HandPose& from,
+bool transit_is_clear(const Model& model, const HeldObject& held, const HandPose& from,
                       const HandPose& to) {
   if (model.scene.limits && !hand_stays_within(*model.scene.limits, from, to)) {
     return false;
   }
-  return !CollisionCheck(model).transit_hits(X_HO, from, to);
+  return holds_all_along(model, held, from, to) &&
+         !(model.scene.obstacles && CollisionCheck(model).transit_hits(held, from, to));
 }
 
 }  // namespace prehensile

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "planner/hand_pose.h"
 #include "planner/plan.h"
-#include "planner/transit.h"
 
 namespace prehensile {
 
@@ -23,13 +23,15 @@ inline constexpr double kClearanceTolerance = 2e-5;
 /// after it up to where the fastest point might touch.
 std::string confinement_fault(const Model& model, const std::vector<PlannedPush>& pushes);
 
-/// Whether the hand is within its limits all along a straight way (transit.h).
+/// Whether the hand is within its limits all along a straight way.
 bool hand_stays_within(const GraspLimits& limits, const HandPose& from,
                        const HandPose& to);
 
-/// Whether hand and object, at rest in it at X_HO, keep clear of the fixture all along a
-/// straight way, and the hand within its limits; by separating planes, as above.
-bool transit_is_clear(const Model& model, const PlanarPose& X_HO, const HandPose& from,
+/// Whether on a straight way hand and object keep clear of the fixture, by separating
+/// planes as above, the hand stays within its limits, and the pads alone hold the object
+/// in every attitude: looked at every hundredth of a radian, with room for how much
+/// gravity can change in between.
+bool transit_is_clear(const Model& model, const HeldObject& held, const HandPose& from,
                       const HandPose& to);
 
 }  // namespace prehensile

@@ -1,11 +1,11 @@
 #include "planner/costs.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "mechanics/pad_law.h"
 #include "planner/steering.h"
+#include "primitives/roll.h"
 
 namespace prehensile {
 namespace {
@@ -72,6 +72,19 @@ double least_drag(const Model& model) {
   return std::max(0.0, least);
 }
 
+/// One instant decides a roll (primitives/roll.h).
+double work_of_roll(const Model& model, const Grasp& start, const Roll& roll) {
+  if (!model.cross_section) return kNan;
+  CrossSectionModel section = *model.cross_section;
+  section.grip_force = grip_force_of(model, roll);
+  const auto contact = static_cast<std::size_t>(roll.contact);
+  const CrossSectionDrive drive{
+      .mu = model.contacts[contact].mu,
+      .sheet_rate = roll.travel,
+      .weight = roll_section(model, roll.contact, start).weight};
+  return solve_cross_section(section, drive).tangential_force[kSheet] * roll.travel;
+}
+
 }  // namespace
 
 CostWeights prices(const Model& model) {
@@ -95,8 +108,7 @@ double longest_placement_length(const Model& model) noexcept {
 
 double friction_work(const Model& model, const PlannedPush& push) noexcept {
   if (const auto* roll = std::get_if<Roll>(&push.push)) {
-    const std::array<double, 2>& mu = model.scene.gripper.friction;
-    return (mu[0] + mu[1]) * grip_force_of(model, push.push) * std::abs(roll->travel);
+    return work_of_roll(model, push.start, *roll);
   }
   // Gauss-Legendre on equal parts: the power is smooth but where the face begins to clip.
   constexpr int kParts = 8;

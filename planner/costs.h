@@ -31,7 +31,8 @@ inline double placement_length(const Model& model) noexcept {
 double longest_placement_length(const Model& model) noexcept;
 
 /// What the friction of the pads takes along a push, by the straight way in (p_OF, theta)
-/// from its start to its end [J], and with every roll.
+/// from its start to its end [J], loaded as at rest; in a roll, what the support gives to
+/// both jaws, NaN where the object would not roll.
 double friction_work(const Model& model, const PlannedPush& push) noexcept;
 
 /// While the hand goes from a push to the next, or to the first or away from the last

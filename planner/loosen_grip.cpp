@@ -1,7 +1,6 @@
 #include "planner/loosen_grip.h"
 
 #include <algorithm>
-#include <tuple>
 #include <vector>
 
 #include "planner/costs.h"
@@ -107,14 +106,12 @@ class GripChoice {
   }
 
  private:
-  /// Best choice up to a run: what it costs, what breaks ties (work at the grips), and
-  /// the choice of the run before.
+  /// Best choice up to a run: what it costs, and the choice of the run before. Of equal
+  /// ones the weakest grips come first, and stay.
   struct Node {
-    double cost = 0.0, work = 0.0;
+    double cost = 0.0;
     std::size_t before = 0;
-    bool operator<(const Node& other) const {
-      return std::tie(cost, work) < std::tie(other.cost, other.work);
-    }
+    bool operator<(const Node& other) const { return cost < other.cost; }
   };
 
   Push push_of(std::size_t run, std::size_t choice) const {
@@ -136,14 +133,18 @@ class GripChoice {
       node.before = k;
       if (k == 0 || node < best) best = node;
     }
+    if (price_.work > 0.0) best.cost += price_.work * work_of(run, choice);
+    return best;
+  }
+
+  double work_of(std::size_t run, std::size_t choice) const {
+    double work = 0.0;
     for (std::size_t i = runs_[run].first; i < runs_[run].last; ++i) {
       PlannedPush planned = plan_.pushes[i];
       planned.push = with_contact(planned.push, runs_[run].contacts[choice]);
-      const double work = friction_work(model_, planned);
-      best.work += work;
-      best.cost += price_.work * work;
+      work += friction_work(model_, planned);
     }
-    return best;
+    return work;
   }
 
   std::size_t cheapest_end(std::vector<Node> ends) const {

@@ -7,8 +7,8 @@ namespace prehensile {
 
 /// Where the scene has a grip_range: each placement of a pusher gets one of the grip
 /// forces with which its pushes stick within the margin and the grasp alone holds the
-/// object before and after them: those that cost least (costs.h), and of these those by
-/// which the pads take the least work, which are the weakest where changes cost nothing.
+/// object before and after them: those that cost least (costs.h), of equal ones the
+/// weakest.
 /// The motion stays the same; forces fall with the grip. Rolls choose theirs themselves,
 /// and about a point pusher an object would turn by another angle. Whether anything
 /// changed.

@@ -135,7 +135,7 @@ double work_along(const Model& model, const PlannedPush& push) {
   return share * work / kSteps;
 }
 
-/// The work that a plan states, pushes by themselves: rolls have one formula.
+/// The work that a plan states, less that of its rolls, for which one instant is enough.
 bool work_is_right(const Model& model, const Plan& plan) {
   constexpr double kTolerance = 0.02;  // where clipping takes points away one by one
   if (!model.scene.cost) return plan.work == 0.0 && plan.grip_changes == 0.0;

@@ -1,5 +1,6 @@
 #include "planner/stretch.h"
 
+#include <iterator>
 #include <utility>
 
 #include "planner/goal.h"

@@ -1,10 +1,11 @@
 #include "planner/transit.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <numbers>
 
 #include "planner/confines_check.h"
+#include "planner/holding.h"
 #include "planner/obstacle_bodies.h"
 
 namespace prehensile {
@@ -14,6 +15,9 @@ using Way = std::vector<HandPose>;
 
 constexpr double kResolution = 5e-6;  // [m]
 constexpr double kLeastReach = 1e-3;  // [m]
+constexpr double kRounding = 1e-9;    // of limits, [m] and [rad]
+constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kStepOfTurn = 0.05;  // [rad] between two looks at gravity
 constexpr int kMostLooks = 5000;      // at one straight way: it would hug an obstacle
 
 /// Length that no point of hand and object exceeds on a straight way [m].
@@ -67,25 +71,55 @@ Way any_way(const TransitRoom& room, const HandPose& from, const HandPose& to,
 
 }  // namespace
 
-HandPose between(const HandPose& from, const HandPose& to, double s) {
-  return {{std::lerp(from.X_WH.x, to.X_WH.x, s), std::lerp(from.X_WH.y, to.X_WH.y, s),
-           std::lerp(from.X_WH.theta, to.X_WH.theta, s)},
-          std::lerp(from.z, to.z, s)};
-}
-
-TransitRoom::TransitRoom(const Model& model, const PlanarPose& X_HO)
+TransitRoom::TransitRoom(const Model& model, const HeldObject& held)
     : model_(model),
-      X_HO_(X_HO),
+      held_(held),
       bodies_(model),
-      clearance_(model.scene.obstacles->clearance) {
-  const double object = translation(X_HO).norm() + bodies_.object_reach();
+      clearance_(model.scene.obstacles.value_or(Obstacles{}).clearance) {
+  const double object = translation(held.X_HO).norm() + bodies_.object_reach();
   reach_ = std::max({bodies_.hand_reach(), object, kLeastReach});
 }
 
 bool TransitRoom::is_clear(const HandPose& from, const HandPose& to) const {
-  if (model_.scene.limits && !hand_stays_within(*model_.scene.limits, from, to)) {
-    return false;
+  return stays_within_limits(from, to) && holds(from, to) &&
+         (!model_.scene.obstacles || keeps_clear(from, to));
+}
+
+/// Boxes are convex; angles are counted from the whole turn below the limits.
+bool TransitRoom::stays_within_limits(const HandPose& from, const HandPose& to) const {
+  const GraspLimits limits = model_.scene.limits.value_or(GraspLimits{});
+  for (const HandPose* pose : {&from, &to}) {
+    const Vec2 p = translation(pose->X_WH);
+    if (limits.hand_low && !(p.array() >= limits.hand_low->array() - kRounding).all()) {
+      return false;
+    }
+    if (limits.hand_high && !(p.array() <= limits.hand_high->array() + kRounding).all()) {
+      return false;
+    }
   }
+  if (!limits.hand_angle_low) return true;
+  const auto [low, high] = std::minmax(from.X_WH.theta, to.X_WH.theta);
+  const double turns = std::ceil((*limits.hand_angle_low - low - kRounding) / kTurn);
+  return high + kTurn * turns <= *limits.hand_angle_high + kRounding ||
+         *limits.hand_angle_high - *limits.hand_angle_low >= kTurn;
+}
+
+bool TransitRoom::holds(const HandPose& from, const HandPose& to) const {
+  const Vec2 g_W = model_.scene.g_W / held_.grip_share;
+  if (g_W.isZero(0.0)) return true;
+  const double turn = to.X_WH.theta - from.X_WH.theta;
+  const int parts = static_cast<int>(std::ceil(std::abs(turn) / kStepOfTurn));
+  Work work;
+  for (int i = 0; i <= parts; ++i) {
+    const double share = parts > 0 ? static_cast<double>(i) / parts : 0.0;
+    const double angle = std::lerp(from.X_WH.theta, to.X_WH.theta, share);
+    const Vec2 g_O = rotated(-angle - held_.X_HO.theta, g_W);
+    if (!pads_hold_gravity(model_, held_.X_HO, g_O, work)) return false;
+  }
+  return true;
+}
+
+bool TransitRoom::keeps_clear(const HandPose& from, const HandPose& to) const {
   // What touches has a distance of 0, so something has to be left of any need.
   const double need = std::max(0.0, clearance_ - 0.5 * kClearanceTolerance);
   const double way = longest_way(from, to, reach_);
@@ -95,7 +129,8 @@ bool TransitRoom::is_clear(const HandPose& from, const HandPose& to) const {
     const double enough = left + kResolution;
     const HandPose at = between(from, to, way > 0.0 ? done / way : 0.0);
     const double hand = bodies_.hand_distance(at.X_WH, need + enough, at.z) - need;
-    const double object = bodies_.object_distance(compose(at.X_WH, X_HO_), enough, at.z);
+    const double object =
+        bodies_.object_distance(compose(at.X_WH, held_.X_HO), enough, at.z);
     const double room = std::min(hand, object);
     if (room < kResolution) return false;
     if (room >= left) return true;
@@ -108,7 +143,8 @@ TransitRoom::Box TransitRoom::box_around(const HandPose& a, const HandPose& b) c
   const Vec3 p(a.X_WH.x, a.X_WH.y, a.z);
   const Vec3 q(b.X_WH.x, b.X_WH.y, b.z);
   Box box{p.cwiseMin(q), p.cwiseMax(q)};
-  for (const ConvexBody& body : model_.scene.obstacles->fixture) {
+  const Obstacles obstacles = model_.scene.obstacles.value_or(Obstacles{});
+  for (const ConvexBody& body : obstacles.fixture) {
     ConvexBody centred = body;
     centred.position.setZero();
     const double radius = reach_about_z(centred);
@@ -117,7 +153,7 @@ TransitRoom::Box TransitRoom::box_around(const HandPose& a, const HandPose& b) c
     box.high = box.high.cwiseMax((body.position.array() + radius).matrix());
   }
   double height = model_.half_thickness;
-  for (const ConvexBody& body : model_.scene.obstacles->hand) {
+  for (const ConvexBody& body : obstacles.hand) {
     ConvexBody upright = body;
     upright.position.setZero();
     height = std::max(height, std::abs(body.position.z()) + reach_about_z(upright));
@@ -127,13 +163,13 @@ TransitRoom::Box TransitRoom::box_around(const HandPose& a, const HandPose& b) c
   return {box.low - room, box.high + room};
 }
 
-std::optional<Way> find_transit(const Model& model, const PlanarPose& X_HO,
+std::optional<Way> find_transit(const Model& model, const HeldObject& held,
                                 const HandPose& from, const HandPose& to,
                                 std::uint64_t seed) {
-  const Way way = any_way(TransitRoom(model, X_HO), from, to, seed);
+  const Way way = any_way(TransitRoom(model, held), from, to, seed);
   if (way.empty()) return std::nullopt;
   for (std::size_t i = 1; i < way.size(); ++i) {
-    if (!transit_is_clear(model, X_HO, way[i - 1], way[i])) return std::nullopt;
+    if (!transit_is_clear(model, held, way[i - 1], way[i])) return std::nullopt;
   }
   return way;
 }

@@ -1,9 +1,10 @@
-/// Ways of the hand from one placement to the next that keep clear of the obstacles of a
-/// scene, with the object at rest in it. Internal to the planner.
+/// Ways of the hand from one placement to the next, with the object at rest in it: clear
+/// of the obstacles of a scene, within the limits of the hand, and the grasp alone holds
+/// the object in every attitude that it is turned to. Internal to the planner.
 ///
-/// The hand moves in the pad plane and along the closing direction. A straight way is
-/// linear in x, y, z and the angle; no point of it is left out: a distance at one pose
-/// clears the poses after it up to where the fastest point might touch.
+/// The hand moves in the pad plane and along the closing direction. No point of a
+/// straight way is left out: a distance at one pose clears the poses after it up to where
+/// the fastest point might touch.
 #pragma once
 
 #include <cstdint>
@@ -11,28 +12,20 @@
 #include <vector>
 
 #include "planner/collision_bodies.h"
+#include "planner/hand_pose.h"
 
 namespace prehensile {
 
-/// A planar pose of H in W, lifted along z [m]. Its angle is a number.
-struct HandPose {
-  PlanarPose X_WH;
-  double z = 0.0;
-};
-
-/// The share s in [0, 1] of a straight way.
-HandPose between(const HandPose& from, const HandPose& to, double s);
-
-/// Hand and object as one body among the fixture, for searches.
+/// What searches ask of hand and object on their way.
 class TransitRoom {
  public:
-  /// Of a scene with obstacles. `model` must outlive it.
-  TransitRoom(const Model& model, const PlanarPose& X_HO);
+  /// `model` must outlive it.
+  TransitRoom(const Model& model, const HeldObject& held);
 
-  /// Whether a pose is clear and within the limits of the hand.
+  /// Whether a pose is allowed.
   bool admits(const HandPose& pose) const { return is_clear(pose, pose); }
 
-  /// Whether the whole straight way is.
+  /// Whether the whole straight way is. Gravity is looked at every few degrees.
   bool is_clear(const HandPose& from, const HandPose& to) const;
 
   /// How far from the origin of H hand and object reach [m], at least a millimetre.
@@ -45,18 +38,22 @@ class TransitRoom {
   Box box_around(const HandPose& a, const HandPose& b) const;
 
  private:
+  bool stays_within_limits(const HandPose& from, const HandPose& to) const;
+  bool holds(const HandPose& from, const HandPose& to) const;
+  bool keeps_clear(const HandPose& from, const HandPose& to) const;
+
   const Model& model_;
-  PlanarPose X_HO_;
+  HeldObject held_;
   CollisionBodies bodies_;
   double clearance_ = 0.0, reach_ = 0.0;
 };
 
 /// Where the hand passes, both ends included; straight in between: at once if that is
-/// clear, else over the fixture along z, else as OMPL's RRT-Connect finds it (where it
-/// is built), shortened. Checked by separating planes (confines_check.h). Nothing if no
-/// such way is found. The angle at the end may differ from that of `to` by whole turns.
+/// allowed, else over the fixture along z, else as OMPL's RRT-Connect finds it (where it
+/// is built), shortened. Checked by other code (transit_is_clear). Nothing if no such way
+/// is found. The angle at the end may differ from that of `to` by whole turns.
 std::optional<std::vector<HandPose>> find_transit(const Model& model,
-                                                  const PlanarPose& X_HO,
+                                                  const HeldObject& held,
                                                   const HandPose& from,
                                                   const HandPose& to, std::uint64_t seed);
 

@@ -126,5 +126,16 @@ TEST(ArmFile, BadFilesAreRefusedWithTheirLine) {
   EXPECT_NE(wrong.find("arm.csv: line "), std::string::npos) << wrong;
 }
 
+TEST(ArmFile, SaysWhichTransitIsNotAllowed) {
+  Written one = written(ArmFormat::kCsv);
+  EXPECT_EQ(one.text.find("transit_to_push"), std::string::npos);
+  one.motion.blocked_transits = {1};
+  const std::string csv = arm_to_text(one.plan, one.motion, {}, ArmFormat::kCsv);
+  EXPECT_NE(csv.find("# transit_to_push_2: "), std::string::npos);
+  EXPECT_EQ(fault_of(csv), "");
+  const std::string yaml = arm_to_text(one.plan, one.motion, {}, ArmFormat::kYaml);
+  EXPECT_NE(yaml.find("transit_to_push_2: "), std::string::npos);
+}
+
 }  // namespace
 }  // namespace prehensile

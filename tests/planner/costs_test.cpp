@@ -1,12 +1,16 @@
 #include "planner/costs.h"
 
+#include <numbers>
+
 #include <gtest/gtest.h>
 
+#include "planner/arm_motion.h"
 #include "planner/bounds.h"
 #include "planner/exact_check.h"
 #include "planner/loosen_grip.h"
 #include "planner/planner.h"
 #include "planner/replay.h"
+#include "primitives/roll.h"
 #include "tests/planner/law_cases.h"
 #include "tests/planner/planner_cases.h"
 
@@ -176,6 +180,72 @@ TEST(Costs, DearChangesOfGripAreFew) {
   }
   EXPECT_GT(changes, 2.0);
   EXPECT_EQ(changes_if_dear, 0.0);
+}
+
+/// The changes that a plan pays for are those of the arm that does it.
+TEST(Costs, GripChangesAreThoseOfTheArm) {
+  int changes = 0;
+  for (int i = 0; i < 50; i += 3) {
+    Scene scene = priced(published_tee(i), {});
+    scene.gripper.grip_range = Vec2(0.2, 2.0) * scene.gripper.grip_force;
+    const Model model = prepare(scene);
+    const Plan plan = plan_regrasp(model);
+    ASSERT_TRUE(plan.usable());
+    int of_arm = 0;
+    const ArmSample* last = nullptr;
+    const ArmMotion motion = arm_motion(model, plan);
+    for (const ArmSample& sample : motion.samples) {
+      const bool begins = sample.phase == ArmPhase::kGrip &&
+                          (last == nullptr || last->phase != ArmPhase::kGrip);
+      of_arm += begins ? 1 : 0;
+      last = &sample;
+    }
+    EXPECT_EQ(plan.grip_changes, of_arm) << i;
+    changes += of_arm;
+  }
+  EXPECT_GT(changes, 0);
+}
+
+/// What the support gives in a roll is what both jaws, which slip by as much, resist.
+TEST(Costs, RollsTakeWhatTheJawsResist) {
+  Random random(4);
+  int rolls = 0;
+  for (int i = 0; i < 300; ++i) {
+    Scene scene;
+    scene.object.shape = CylinderShape{.radius = 0.03, .length = 0.1, .axis = Axis::kX};
+    scene.object.mass = random.log_in(0.1, 2.0);
+    scene.gripper.pad = RectanglePad{{0.02, 0.02}};
+    scene.gripper.friction = {random.in(0.1, 0.9), random.in(0.1, 0.9)};
+    scene.gripper.grip_force = 20.0;
+    scene.gripper.jaw_mode = static_cast<JawMode>(random.below(3));
+    scene.pushers = {{.name = "floor",
+                      .feature = LineFeature{},
+                      .friction = 1.0,
+                      .normal_angle = 0.5 * std::numbers::pi}};
+    const Model model = prepare(scene);
+    const Roll roll{.contact = 0,
+                    .travel = random.chance(0.5) ? 0.01 : -0.02,
+                    .grip_force = random.log_in(0.1, 2.0)};
+    if (!apply(model, scene.start, roll).completed()) continue;
+    CrossSectionModel section = *model.cross_section;
+    section.grip_force = roll.grip_force;
+    const double weight = roll_section(model, 0, scene.start).weight;
+    const auto& [mu_1, mu_2] = section.friction;
+    const double work =
+        friction_work(model, {.push = roll, .start = scene.start, .end = scene.start});
+    const CrossSectionInstant instant = solve_cross_section(
+        section, {.mu = 1.0, .sheet_rate = roll.travel, .weight = weight});
+    const double resisted =
+        mu_1 * instant.normal_force[kJaw1] + mu_2 * instant.normal_force[kJaw2];
+    EXPECT_NEAR(work, resisted * std::abs(roll.travel), 1e-6 * work) << i;
+    const double load = instant.normal_force[kSheet];
+    EXPECT_NEAR(
+        work,
+        rolling_threshold(section, roll.travel, weight) * load * std::abs(roll.travel),
+        1e-6 * work);
+    ++rolls;
+  }
+  EXPECT_GT(rolls, 50);
 }
 
 TEST(Costs, ReplayCountsThemAgain) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mechanics/pad_law.h"
 #include "planner/arm_motion.h"
 #include "planner/confines_check.h"
 #include "planner/frame.h"
@@ -131,6 +132,65 @@ TEST(Transit, KeepsTheLimitsOfTheHandsAngle) {
   EXPECT_FALSE(stays(-1.0, 2.0 - turn));
   EXPECT_FALSE(stays(2.1, 0.0));
   EXPECT_FALSE(stays(0.0, turn));
+}
+
+/// A weight that hangs below the finger axis, and swings out of the grip where it is
+/// turned to the side.
+Scene hanging() {
+  Scene scene = published_square(0);
+  scene.object.p_OCom = Vec2(0.0, -0.04);
+  scene.gripper.friction = {0.5, 0.5};
+  return scene;
+}
+
+TEST(Transit, TurnsTheObjectOnlyAsTheGraspHoldsIt) {
+  const Model model = prepare(hanging());
+  const auto slack_at = [&](double angle) {
+    return gravity_slack_by_pad_law(
+        model, grasp_at(model, {}, rotated(-angle, model.scene.g_W)));
+  };
+  ASSERT_GT(slack_at(0.0), 0.0);
+  ASSERT_LT(slack_at(0.5 * std::numbers::pi), 0.0);
+  int held = 0, falls = 0;
+  Random random(8);
+  for (int i = 0; i < 200; ++i) {
+    const double from = random.in(-3.0, 3.0), to = random.in(-3.0, 3.0);
+    double least = 1.0;
+    for (int k = 0; k <= 400; ++k) {
+      least = std::min(least, slack_at(std::lerp(from, to, k / 400.0)));
+    }
+    const bool clear = transit_is_clear(model, {}, at(0.0, 0.0, from), at(0.1, 0.0, to));
+    if (clear) {
+      EXPECT_GT(least, 0.0) << from << ' ' << to;
+    }
+    if (least > 0.05) {
+      EXPECT_TRUE(clear) << from << ' ' << to;
+    }
+    (clear ? held : falls) += 1;
+  }
+  EXPECT_GT(held, 5);
+  EXPECT_GT(falls, 50);
+}
+
+TEST(Transit, FindsNoTurnThatTheGraspDoesNotHold) {
+  const Model model = prepare(hanging());
+  EXPECT_TRUE(find_transit(model, {}, at(0.0, 0.0, -0.1), at(0.1, 0.0, 0.1), 1));
+  const HandPose below = at(0.0, 0.0, 0.0), above = at(0.1, 0.0, std::numbers::pi);
+  EXPECT_FALSE(find_transit(model, {}, below, above, 1));
+  EXPECT_TRUE(find_transit(model, {.grip_share = 100.0}, below, above, 1));
+}
+
+/// Nothing gets out of a block.
+TEST(Transit, ArmsSayWhereNoWayIsFound) {
+  Scene scene = published_tee(20);
+  const Plan plan = plan_regrasp(prepare(scene));
+  ASSERT_EQ(plan.placements, 2.0);
+  EXPECT_TRUE(arm_motion(prepare(scene), plan).blocked_transits.empty());
+  scene.obstacles.emplace();
+  scene.obstacles->fixture.push_back(
+      {.name = "block", .shape = BoxShape{{1.0, 1.0, 1.0}}});
+  const ArmMotion motion = arm_motion(prepare(scene), plan);
+  EXPECT_EQ(motion.blocked_transits, std::vector<int>{1});
 }
 
 /// Plans among walls and posts: their arms hit nothing on the way, straight transits of

@@ -44,5 +44,6 @@ set(costly_when_sanitized
   SpatialSensitivity.HoldsOnOneSideAtAChangeOfMode
   Steering.MovesOfOtherPadsSurviveADenseCheck
   Transit.ArmsKeepClearOfThePosts
+  Transit.FindsNoTurnThatTheGraspDoesNotHold
   WalkSearch.FindsLoopsWhereThePadsAreClipped
   WalkSearch.ReachesTheGoalByPushesThatStick)

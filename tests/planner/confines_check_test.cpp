@@ -121,14 +121,14 @@ Tally solve_among_posts(bool square, RegraspRange range, int count) {
 }
 
 TEST(ConfinesCheck, NoPlanCollides) {
-  if (!collisions_are_built()) return;
+  if (!collisions_are_built()) GTEST_SKIP() << "built without FCL";
   const Tally tally = solve_among_posts(true, RegraspRange::kPublished, 8);
   EXPECT_GE(tally.solved, 4);
   EXPECT_GE(tally.would_hit, 1);
 }
 
 TEST(ConfinesCheck, FullNoPlanCollides) {
-  if (!collisions_are_built()) return;
+  if (!collisions_are_built()) GTEST_SKIP() << "built without FCL";
   for (const bool square : {true, false}) {
     for (const RegraspRange range : {RegraspRange::kPublished, RegraspRange::kWide}) {
       const Tally tally = solve_among_posts(square, range, 20);
@@ -187,7 +187,7 @@ TEST_F(OneBody, ReplayMissesNoThinSheet) {
 }
 
 TEST_F(OneBody, ThePlanGoesAnotherWay) {
-  if (!collisions_are_built()) return;
+  if (!collisions_are_built()) GTEST_SKIP() << "built without FCL";
   const Plan before = plan_regrasp(prepare(scene_), nominal());
   ASSERT_TRUE(before.usable());
   put_a_sheet_in_the_way(before);
@@ -204,7 +204,7 @@ TEST_F(OneBody, ThePlanGoesAnotherWay) {
 }
 
 TEST_F(OneBody, WalledInThereIsAProofAndTheBodyIsNamed) {
-  if (!collisions_are_built()) return;
+  if (!collisions_are_built()) GTEST_SKIP() << "built without FCL";
   scene_.obstacles->fixture.push_back(
       {.name = "lid", .shape = HalfSpaceShape{}, .position = {0.0, 0.0, 0.01}});
   const Model model = prepare(scene_);
@@ -220,7 +220,7 @@ TEST_F(OneBody, WalledInThereIsAProofAndTheBodyIsNamed) {
 
 /// The object may touch the plate that stands for its pusher, and no other.
 TEST_F(OneBody, ThePusherItselfIsNoObstacle) {
-  if (!collisions_are_built()) return;
+  if (!collisions_are_built()) GTEST_SKIP() << "built without FCL";
   const Model model = prepare(scene_);
   EXPECT_TRUE(plan_regrasp(model, nominal()).usable());
   for (ConvexBody& plate : scene_.obstacles->fixture) {

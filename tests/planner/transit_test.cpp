@@ -63,7 +63,7 @@ TEST(Transit, IsStraightWhereThatIsClear) {
 }
 
 TEST(Transit, GoesOverALowWall) {
-  if (!collisions_are_built()) return;
+  if (!collisions_are_built()) GTEST_SKIP() << "built without FCL";
   const Model model = prepare(divided(0.05, 0.0));
   const auto way = find_transit(model, {}, at(-0.3, 0.0, 0.0), at(0.3, 0.1, 1.0), 1);
   ASSERT_TRUE(way);
@@ -74,7 +74,9 @@ TEST(Transit, GoesOverALowWall) {
 
 /// The palm fits through the gap only if the hand turns.
 TEST(Transit, IsSearchedForWhereTheHandHasToTurn) {
-  if (!collisions_are_built() || !frame_is_built()) return;
+  if (!collisions_are_built() || !frame_is_built()) {
+    GTEST_SKIP() << "built without FCL or OMPL";
+  }
   Scene scene = divided(4.0, 0.16);
   const Model model = prepare(scene);
   const double quarter = 0.5 * std::numbers::pi;
@@ -153,11 +155,11 @@ TEST(Transit, TurnsTheObjectOnlyAsTheGraspHoldsIt) {
   ASSERT_LT(slack_at(0.5 * std::numbers::pi), 0.0);
   int held = 0, falls = 0;
   Random random(8);
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < 80; ++i) {
     const double from = random.in(-3.0, 3.0), to = random.in(-3.0, 3.0);
     double least = 1.0;
-    for (int k = 0; k <= 400; ++k) {
-      least = std::min(least, slack_at(std::lerp(from, to, k / 400.0)));
+    for (int k = 0; k <= 120; ++k) {
+      least = std::min(least, slack_at(std::lerp(from, to, k / 120.0)));
     }
     const bool clear = transit_is_clear(model, {}, at(0.0, 0.0, from), at(0.1, 0.0, to));
     if (clear) {
@@ -169,7 +171,7 @@ TEST(Transit, TurnsTheObjectOnlyAsTheGraspHoldsIt) {
     (clear ? held : falls) += 1;
   }
   EXPECT_GT(held, 5);
-  EXPECT_GT(falls, 50);
+  EXPECT_GT(falls, 20);
 }
 
 TEST(Transit, FindsNoTurnThatTheGraspDoesNotHold) {
@@ -196,7 +198,9 @@ TEST(Transit, ArmsSayWhereNoWayIsFound) {
 /// Plans among walls and posts: their arms hit nothing on the way, straight transits of
 /// some would.
 TEST(Transit, ArmsKeepClearOfThePosts) {
-  if (!collisions_are_built() || !frame_is_built()) return;
+  if (!collisions_are_built() || !frame_is_built()) {
+    GTEST_SKIP() << "built without FCL or OMPL";
+  }
   int transits = 0, straight = 0;
   for (std::uint64_t i = 0; i < 25; ++i) {
     const Model model = prepare(with_obstacles(published_tee(2 * i), 10, 7, i));

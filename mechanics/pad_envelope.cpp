@@ -30,6 +30,7 @@ PadEnvelope::PadEnvelope(const Model& model, const Margin& margin)
     : margin_(margin), c_(model.c) {
   for (int i = 0; i < kKappas; ++i) {
     grid_[i] = 0.25 * std::sinh(6.0 * (2.0 * i / (kKappas - 1) - 1.0));
+    turns_[i] = grid_[i] / c_;
   }
   table_[tables_++] = tabulate(model, grid_, 1.0);
   if (margin.torque_radius == 0.0) return;
@@ -112,33 +113,40 @@ KappaSet PadEnvelope::kappas(const StickContact& contact, const Vec2& from,
   const double e_n = e.dot(contact.n);
   const double s_a = std::max((a - from).dot(contact.t), (a - to).dot(contact.t));
   const double s_b = std::min((b - from).dot(contact.t), (b - to).dot(contact.t));
-  Row slack;
+  Slack slack;
   for (int i = 0; i < kKappas; ++i) {
-    const double turn = grid_[i] / c_;
-    slack[i] = std::max(e_n - turn * s_a, e_n - turn * s_b);
+    slack.row[i] = std::max(e_n - turns_[i] * s_a, e_n - turns_[i] * s_b);
   }
+  slack.close_in();
   for (int t = 0; t < tables_; ++t) {
-    for (int k = 0; k < count; ++k) keep(rows[k], table_[t], slack);
+    for (int k = 0; k < count && slack.is_left(); ++k) keep(rows[k], table_[t], slack);
   }
   return intervals(slack);
 }
 
-/// Lowers the slack to that of one inequality, worst over the box of the wrench.
-void PadEnvelope::keep(const Inequality& row, const Table& table, Row& slack) noexcept {
-  const Row& along = row.along > 0.0 ? table.along_low : table.along_high;
-  const Row& moment = row.moment > 0.0 ? table.moment_low : table.moment_high;
-  for (int i = 0; i < kKappas; ++i) {
-    const double left =
-        row.along * along[i] - row.across * table.across[i] + row.moment * moment[i];
-    slack[i] = std::min(slack[i], left - row.right);
-  }
+void PadEnvelope::Slack::close_in() noexcept {
+  while (first <= last && !(row[first] >= 0.0)) ++first;
+  while (first <= last && !(row[last] >= 0.0)) --last;
 }
 
-KappaSet PadEnvelope::intervals(const Row& slack) const noexcept {
+/// Lowers the slack to that of one inequality, worst over the box of the wrench.
+void PadEnvelope::keep(const Inequality& row, const Table& table, Slack& slack) noexcept {
+  const Row& along = row.along > 0.0 ? table.along_low : table.along_high;
+  const Row& moment = row.moment > 0.0 ? table.moment_low : table.moment_high;
+  for (int i = slack.begin(); i < slack.end(); ++i) {
+    const double left =
+        row.along * along[i] - row.across * table.across[i] + row.moment * moment[i];
+    slack.row[i] = std::min(slack.row[i], left - row.right);
+  }
+  slack.close_in();
+}
+
+KappaSet PadEnvelope::intervals(const Slack& slack) const noexcept {
   KappaSet set;
+  if (!slack.is_left()) return set;
   double last = -1.0;
-  for (int i = 0; i < kKappas; ++i) {
-    const double now = slack[i];
+  for (int i = slack.begin(); i < slack.end(); ++i) {
+    const double now = slack.row[i];
     const auto border = [&] {
       return std::lerp(grid_[i - 1], grid_[i], last / (last - now));
     };

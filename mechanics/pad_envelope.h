@@ -44,13 +44,26 @@ class PadEnvelope {
     double along, across, moment, right;
   };
 
-  static void keep(const Inequality& row, const Table& table, Row& slack) noexcept;
-  KappaSet intervals(const Row& slack) const noexcept;
+  /// The slack of all kappas from the first to the last with any; it is not kept up to
+  /// date beyond those beside them.
+  struct Slack {
+    Row row;
+    int first = 0, last = kKappas - 1;
+
+    bool is_left() const { return first <= last; }
+    int begin() const { return first > 0 ? first - 1 : 0; }
+    int end() const { return last + 1 < kKappas ? last + 2 : kKappas; }
+    void close_in() noexcept;
+  };
+
+  static void keep(const Inequality& row, const Table& table, Slack& slack) noexcept;
+  KappaSet intervals(const Slack& slack) const noexcept;
   static Table tabulate(const Model& model, const Row& grid, double stretch);
 
   Margin margin_;
   double c_;
-  Row grid_;  ///< kappas
+  Row grid_;   ///< kappas
+  Row turns_;  ///< kappa / c [1/m]
   int tables_ = 0;
   std::array<Table, 3> table_;
 };

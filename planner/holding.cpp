@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "mechanics/certificate.h"
 
@@ -21,32 +22,76 @@ constexpr double kSurelyNotHeld = 1.0 - 1.06;
 /// Work of asking the pads point by point, in stick tests.
 constexpr std::int64_t kExactCheck = 50;
 
-/// A twist in which gravity gains more power than friction takes, among the normals of
-/// ellipsoids about the middle of the pads: enough to reject, not to accept.
-bool surely_falls(const PlanarGrasp& grasp) {
-  Vec2 middle = Vec2::Zero();
-  const double capacity = grasp.capacity();
-  for (int j = 0; j < grasp.count; ++j) {
-    middle += grasp.bound[j] / capacity * Vec2(grasp.x[j], grasp.y[j]);
-  }
-  double radius = 0.0;
-  for (int j = 0; j < grasp.count; ++j) {
-    radius += grasp.bound[j] / capacity * (Vec2(grasp.x[j], grasp.y[j]) - middle).norm();
-  }
-  const Vec2 weight = grasp.w_g.head<2>();
-  const double moment = grasp.w_g[2] - cross(middle, weight);
-  for (const double stretch : std::array{1.0, 0.7, 1.4}) {
-    const double turning = stretch * radius;
-    const double omega = moment / (turning * turning);
-    double power = weight.squaredNorm() + moment * omega;
+/// Pads and gravity about the middle of their friction.
+class HeldAboutMiddle {
+ public:
+  explicit HeldAboutMiddle(const PlanarGrasp& grasp)
+      : grasp_(grasp), capacity_(grasp.capacity()), weight_(grasp.w_g.head<2>()) {
     for (int j = 0; j < grasp.count; ++j) {
-      const Vec2 r = Vec2(grasp.x[j], grasp.y[j]) - middle;
-      power -= grasp.bound[j] * (weight + omega * perp(r)).norm();
+      middle_ += grasp.bound[j] / capacity_ * Vec2(grasp.x[j], grasp.y[j]);
     }
-    if (power > 0.0) return true;
+    for (int j = 0; j < grasp.count; ++j) {
+      spin_ += grasp.bound[j] * lever(j).norm();
+    }
+    moment_ = grasp.w_g[2] - cross(middle_, weight_);
   }
-  return false;
-}
+
+  /// Decided by the friction of a few twists, or not.
+  std::optional<bool> decided() const {
+    if (!(spin_ > 0.0)) return std::nullopt;
+    if (adds_up(friction_in(Vec2::Zero(), moment_ < 0.0 ? -1.0 : 1.0))) return true;
+    const double radius = spin_ / capacity_;
+    for (const double stretch : std::array{1.0, 0.7, 1.4}) {
+      const double turning = stretch * radius;
+      const double omega = moment_ / (turning * turning);
+      const Friction friction = friction_in(weight_, omega);
+      if (weight_.squaredNorm() + moment_ * omega > friction.power) return false;
+      if (adds_up(friction)) return true;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  struct Friction {
+    Vec2 force = Vec2::Zero();
+    double moment = 0.0;
+    double power = 0.0;
+  };
+
+  /// Of pads that move with this twist.
+  Friction friction_in(const Vec2& velocity, double omega) const {
+    Friction sum;
+    for (int j = 0; j < grasp_.count; ++j) {
+      const Vec2 r = lever(j);
+      const Vec2 slip = velocity + omega * perp(r);
+      const double rate = slip.norm();
+      if (!(rate > 0.0)) continue;
+      const Vec2 force = grasp_.bound[j] / rate * slip;
+      sum.force += force;
+      sum.moment += cross(r, force);
+      sum.power += grasp_.bound[j] * rate;
+    }
+    return sum;
+  }
+
+  /// Shares of this friction and of that of a translation make up gravity, with something
+  /// to spare.
+  bool adds_up(const Friction& friction) const {
+    constexpr double kSum = 0.999;
+    const double share = moment_ == 0.0 ? 0.0 : moment_ / friction.moment;
+    const Vec2 rest = weight_ - share * friction.force;
+    return share >= 0.0 && share + rest.norm() / capacity_ < kSum;
+  }
+
+  Vec2 lever(int j) const { return Vec2(grasp_.x[j], grasp_.y[j]) - middle_; }
+
+  const PlanarGrasp& grasp_;
+  double capacity_;  // [N]
+  Vec2 weight_;      // [N]
+  Vec2 middle_ = Vec2::Zero();
+  double spin_ = 0.0;    // [Nm] of friction in a turn about the middle
+  double moment_ = 0.0;  // [Nm] of gravity about it
+};
 
 /// Pads that are not round, or not whole, hold other moments at other angles.
 int points_of(double turn) {
@@ -71,7 +116,9 @@ bool pads_hold_gravity(const Model& model, const PlanarPose& X_HO, const Vec2& g
   }
   work.other += kExactCheck;
   const PlanarGrasp grasp = grasp_at(model, X_HO, g_O);
-  return grasp.count > 0 && !surely_falls(grasp) && gravity_slack(grasp) > kFirmlyHeld;
+  if (grasp.count == 0) return false;
+  if (const auto held = HeldAboutMiddle(grasp).decided()) return *held;
+  return gravity_slack(grasp) > kFirmlyHeld;
 }
 
 bool pads_hold_gravity(const SearchModel& search, const Move& move, Work& work) noexcept {

@@ -71,21 +71,12 @@ PadsAtPlace::PadsAtPlace(const Model& model, const Vec2& p_OF)
 }
 
 DirectedDrag::DirectedDrag(const Model& model, const PadsAtPlace& pads, const Vec2& e)
-    : e_(e), slopes_(slopes_for(pads)), angles_(pads.grasps().size()) {
-  samples_.reserve(slopes_.size() * angles_);
-  for (const Slope& slope : slopes_) {
-    const Vec2 velocity = slope.cosine * e;
-    for (const PlanarGrasp& grasp : pads.grasps()) {
-      if (model.has_soft_points()) {
-        samples_.push_back({velocity, slope.sine});
-        continue;
-      }
-      const PadDrag drag = drag_of_points(grasp.count, grasp.x, grasp.y, grasp.bound, 1.0,
-                                          velocity, slope.sine / model.c);
-      samples_.push_back({drag.force / model.F, drag.moment / (model.F * model.c)});
-    }
-  }
-}
+    : model_(model),
+      pads_(pads),
+      e_(e),
+      slopes_(slopes_for(pads)),
+      angles_(pads.grasps().size()),
+      samples_(slopes_.size() * angles_) {}
 
 std::span<const DirectedDrag::Slope> DirectedDrag::slopes_for(const PadsAtPlace& pads) {
   static const std::vector<Slope> whole = slopes_of(kSlopesOfWhole);
@@ -93,51 +84,100 @@ std::span<const DirectedDrag::Slope> DirectedDrag::slopes_for(const PadsAtPlace&
   return pads.are_whole() ? whole : clipped;
 }
 
-KappaRanges DirectedDrag::kappas(const StickContact& contact,
-                                 const Vec2& p_OF) const noexcept {
-  const auto lever = [&](const Vec2& from, const Vec2& to) {
-    return Vec2((to - from) / contact.c);
-  };
-  const Vec2 a = lever(p_OF, contact.a);
-  const Vec2 b = lever(p_OF, contact.b);
-  const double weight = cross(lever(p_OF, contact.p_OCom), contact.gamma);
-  const auto slack_of = [&](const Sample& sample) {
-    const Vec2 force = sample.force - contact.gamma;
-    const double moment = sample.moment - weight;
-    const double normal = force.dot(contact.n);
-    return std::min({normal, contact.mu * normal - std::abs(force.dot(contact.t)),
-                     cross(a, force) - moment, moment - cross(b, force)});
-  };
-  const double straight = contact.n.dot(e_);
-  const double turning_a = contact.n.dot(perp(a));
-  const double turning_b = contact.n.dot(perp(b));
-  const auto slack_at = [&](std::size_t i) {
-    const Slope& slope = slopes_[i];
-    double slack = slope.cosine * straight +
-                   std::max(slope.sine * turning_a, slope.sine * turning_b);
-    for (std::size_t k = 0; k < angles_; ++k) {
-      slack = std::min(slack, slack_of(samples_[i * angles_ + k]));
+const DirectedDrag::Sample& DirectedDrag::sample(std::size_t slope,
+                                                 std::size_t angle) noexcept {
+  Sample& sample = samples_[slope * angles_ + angle];
+  if (sample.known) return sample;
+  sample.known = true;
+  const Vec2 velocity = slopes_[slope].cosine * e_;
+  const double turning = slopes_[slope].sine;
+  if (model_.has_soft_points()) {
+    sample.force = velocity;
+    sample.moment = turning;
+    return sample;
+  }
+  const PlanarGrasp& grasp = pads_.grasps()[angle];
+  const PadDrag drag = drag_of_points(grasp.count, grasp.x, grasp.y, grasp.bound, 1.0,
+                                      velocity, turning / model_.c);
+  sample.force = drag.force / model_.F;
+  sample.moment = drag.moment / (model_.F * model_.c);
+  return sample;
+}
+
+/// How firmly a contact sticks at one place, slope by slope.
+class DirectedDrag::Instants {
+ public:
+  Instants(DirectedDrag& drag, const StickContact& contact, const Vec2& p_OF)
+      : drag_(drag), contact_(contact) {
+    const auto lever = [&](const Vec2& to) { return Vec2((to - p_OF) / contact.c); };
+    a_ = lever(contact.a);
+    b_ = lever(contact.b);
+    weight_ = cross(lever(contact.p_OCom), contact.gamma);
+    straight_ = contact.n.dot(drag.e_);
+    turning_a_ = contact.n.dot(perp(a_));
+    turning_b_ = contact.n.dot(perp(b_));
+  }
+
+  bool sticks(std::size_t i) const {
+    if (!(advance(i) - kAside >= 0.0)) return false;
+    for (std::size_t k = 0; k < drag_.angles_; ++k) {
+      if (!(slack_of(drag_.sample(i, k)) - kAside >= 0.0)) return false;
+    }
+    return true;
+  }
+
+  double slack(std::size_t i) const {
+    double slack = advance(i);
+    for (std::size_t k = 0; k < drag_.angles_; ++k) {
+      slack = std::min(slack, slack_of(drag_.sample(i, k)));
     }
     return slack - kAside;
-  };
+  }
+
+  /// The kappa between two slopes at which the slack is nought.
+  double border(std::size_t i) const {
+    const double before = slack(i - 1);
+    const double share = before / (before - slack(i));
+    return std::tan(std::lerp(drag_.slopes_[i - 1].angle, drag_.slopes_[i].angle, share));
+  }
+
+ private:
+  double advance(std::size_t i) const {
+    const Slope& slope = drag_.slopes_[i];
+    return slope.cosine * straight_ +
+           std::max(slope.sine * turning_a_, slope.sine * turning_b_);
+  }
+
+  double slack_of(const Sample& sample) const {
+    const Vec2 force = sample.force - contact_.gamma;
+    const double moment = sample.moment - weight_;
+    const double normal = force.dot(contact_.n);
+    return std::min({normal, contact_.mu * normal - std::abs(force.dot(contact_.t)),
+                     cross(a_, force) - moment, moment - cross(b_, force)});
+  }
+
+  DirectedDrag& drag_;
+  const StickContact& contact_;
+  Vec2 a_, b_;
+  double weight_, straight_, turning_a_, turning_b_;
+};
+
+KappaRanges DirectedDrag::kappas(const StickContact& contact, const Vec2& p_OF) noexcept {
+  const Instants instants(*this, contact, p_OF);
   KappaRanges set;
-  double before = -1.0;
+  bool stuck = false;
   for (std::size_t i = 0; i < slopes_.size(); ++i) {
-    const double now = slack_at(i);
-    const auto crossing = [&] {  // of zero, between the sample before and this one
-      const double share = before / (before - now);
-      return std::tan(std::lerp(slopes_[i - 1].angle, slopes_[i].angle, share));
-    };
-    if (now >= 0.0 && before < 0.0) {
+    const bool sticks = instants.sticks(i);
+    if (sticks && !stuck) {
       if (set.count == 2) break;
-      const double lo = i > 0 ? crossing() : std::tan(slopes_[0].angle);
+      const double lo = i > 0 ? instants.border(i) : std::tan(slopes_[0].angle);
       set.intervals[set.count++] = {lo, std::tan(slopes_[i].angle)};
-    } else if (now >= 0.0) {
+    } else if (sticks) {
       set.intervals[set.count - 1].hi = std::tan(slopes_[i].angle);
-    } else if (before >= 0.0) {
-      set.intervals[set.count - 1].hi = crossing();
+    } else if (stuck) {
+      set.intervals[set.count - 1].hi = instants.border(i);
     }
-    before = now;
+    stuck = sticks;
   }
   return set;
 }

@@ -42,15 +42,16 @@ class PadsAtPlace {
   bool are_whole_;
 };
 
-/// Friction of such pads over F, and over F c, for motions in one direction.
+/// Friction of such pads over F, and over F c, for motions in one direction: found where
+/// it is first asked for.
 class DirectedDrag {
  public:
-  /// `e`: motion of the object in the hand (unit, in O).
+  /// `e`: motion of the object in the hand (unit, in O). Model and pads must outlive it.
   DirectedDrag(const Model& model, const PadsAtPlace& pads, const Vec2& e);
 
   /// The kappas for which a contact sticks at all of the angles while the finger axis is
   /// at p_OF. No heap.
-  KappaRanges kappas(const StickContact& contact, const Vec2& p_OF) const noexcept;
+  KappaRanges kappas(const StickContact& contact, const Vec2& p_OF) noexcept;
 
   /// One of the kappas that are looked at, as the angle of (1, kappa) [rad].
   struct Slope {
@@ -61,9 +62,14 @@ class DirectedDrag {
   struct Sample {
     Vec2 force;
     double moment = 0.0;
+    bool known = false;
   };
+  class Instants;
   static std::span<const Slope> slopes_for(const PadsAtPlace& pads);
+  const Sample& sample(std::size_t slope, std::size_t angle) noexcept;
 
+  const Model& model_;
+  const PadsAtPlace& pads_;
   Vec2 e_;
   std::span<const Slope> slopes_;
   std::size_t angles_;

@@ -77,7 +77,7 @@ void WalkLattice::find_held(Node& node, Work& work) const {
 }
 
 KappaRanges WalkLattice::slopes_along(Node& node, int contact,
-                                      const DirectedDrag& drag) const {
+                                      DirectedDrag& drag) const {
   if (!node.held[contact]) return {};
   return drag.kappas(weak_[contact], node.p_OF);
 }
@@ -88,12 +88,15 @@ void WalkLattice::find_slopes(Node& node, Work& work) {
   node.slopes.resize(steps_.size() * contacts_);
   const PadsAtPlace pads(model_, node.p_OF);
   if (pads.are_lost()) return;
-  if (pads.are_whole() && whole_drags_.empty()) {
-    for (const Step& step : steps_) whole_drags_.emplace_back(model_, pads, step.e);
+  if (pads.are_whole() && !whole_pads_) {
+    whole_pads_ = pads;
+    for (const Step& step : steps_) {
+      whole_drags_.emplace_back(model_, *whole_pads_, step.e);
+    }
   }
   for (std::size_t s = 0; s < steps_.size(); ++s) {
     ++work.other;
-    const auto keep = [&](const DirectedDrag& drag) {
+    const auto keep = [&](DirectedDrag& drag) {
       for (int k = 0; k < contacts_; ++k) {
         node.slopes[s * contacts_ + k] = slopes_along(node, k, drag);
       }
@@ -101,7 +104,8 @@ void WalkLattice::find_slopes(Node& node, Work& work) {
     if (pads.are_whole()) {
       keep(whole_drags_[s]);
     } else {
-      keep({model_, pads, steps_[s].e});
+      DirectedDrag drag(model_, pads, steps_[s].e);
+      keep(drag);
     }
   }
 }
@@ -145,8 +149,10 @@ void WalkLattice::add_given(int from, int to, Work& work, std::vector<WalkEdge>&
   find_held(nodes_[to], work);
   ++work.other;
   const Vec2 e = -way / length;
-  const DirectedDrag drag_from(model_, PadsAtPlace(model_, place(from)), e);
-  const DirectedDrag drag_to(model_, PadsAtPlace(model_, place(to)), e);
+  const PadsAtPlace pads_from(model_, place(from));
+  const PadsAtPlace pads_to(model_, place(to));
+  DirectedDrag drag_from(model_, pads_from, e);
+  DirectedDrag drag_to(model_, pads_to, e);
   for (int k = 0; k < contacts_; ++k) {
     add_edges(common(slopes_along(nodes_[from], k, drag_from),
                      slopes_along(nodes_[to], k, drag_to)),

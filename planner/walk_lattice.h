@@ -24,6 +24,8 @@ class WalkLattice {
   /// the goals. `search` must outlive the lattice.
   WalkLattice(const SearchModel& search, const FlatState& start, const GoalPlaces& goals,
               int per_side);
+  WalkLattice(const WalkLattice&) = delete;
+  WalkLattice& operator=(const WalkLattice&) = delete;
 
   int nodes() const { return static_cast<int>(nodes_.size()); }
   int start() const { return start_; }
@@ -53,7 +55,7 @@ class WalkLattice {
   void add_steps();
   void find_held(Node& node, Work& work) const;
   void find_slopes(Node& node, Work& work);
-  KappaRanges slopes_along(Node& node, int contact, const DirectedDrag& drag) const;
+  KappaRanges slopes_along(Node& node, int contact, DirectedDrag& drag) const;
   void add_edges(const KappaRanges& slopes, int contact, int to, double length,
                  std::vector<WalkEdge>& edges) const;
   void add_steps_from(int index, Work& work, std::vector<WalkEdge>& edges);
@@ -69,6 +71,7 @@ class WalkLattice {
   std::vector<int> on_grid_;  // of nodes
   std::vector<int> at_grid_;  // the node there, or -1
   int start_ = 0;
+  std::optional<PadsAtPlace> whole_pads_;
   std::vector<DirectedDrag> whole_drags_;  // by step
 };
 

@@ -48,7 +48,8 @@ Plate over_grid(const std::vector<Vec2>& outline, double side) {
   for (int i = 0; i < static_cast<int>(cells.x()); ++i) {
     for (int j = 0; j < static_cast<int>(cells.y()); ++j) {
       const PressedCell part =
-          press(square_cell(corner + side * Vec2(i + 0.5, j + 0.5), side), pieces, {});
+          press(square_cell(corner + side * Vec2(i + 0.5, j + 0.5), side), pieces,
+                CellFrame(PlanarPose{}));
       if (part.measure <= 1e-3 * side * side) continue;
       plate.support.push_back(part.centroid);
       plate.shares.push_back(part.measure);

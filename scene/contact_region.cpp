@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scene/near_outline.h"
 #include "scene/outline.h"
 #include "scene/pad_quadrature.h"
 
@@ -117,16 +118,20 @@ ContactPoints ContactRegion::clipped_by_face(const PlanarPose& X_HO) const noexc
     if (depth_inside(outline_, translation(X_OH)) >= 0.0) return whole_;
     return points;
   }
+  const CellFrame frame(X_OH);
+  double within = 0.0;
+  for (const PadCell& cell : cells_) within = std::max(within, cell.within);
+  const NearOutline near(outline_, translation(X_OH), within);
   double total = 0.0;
   double pressed = 0.0;
   for (const PadCell& cell : cells_) {
     total += cell.measure * cell.pressure;
-    const double depth = depth_inside(outline_, transform(X_OH, cell.centroid));
+    const double depth = near.depth_at(frame.in_object(cell.centroid), cell.within);
     PressedCell part;
     if (depth >= cell.reach) {
       part = {cell.measure, cell.centroid};
     } else if (depth > -cell.reach) {
-      part = press(cell, pieces_, X_OH);
+      part = press(cell, pieces_, frame);
     }
     if (part.measure <= 0.0) continue;
     points.x[points.count] = part.centroid.x();

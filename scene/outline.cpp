@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "scene/lying_prism.h"
+#include "scene/near_outline.h"
 
 namespace prehensile {
 namespace {
@@ -53,12 +54,6 @@ struct OutlineOf {
   std::vector<Vec2> operator()(const SolidShape& solid) const { return solid.outline; }
   std::vector<Vec2> operator()(const MeshShape&) const { return {}; }
 };
-
-double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
-  const Vec2 d = b - a;
-  const double s = std::clamp((p - a).dot(d) / d.squaredNorm(), 0.0, 1.0);
-  return (p - a - s * d).norm();
-}
 
 /// Name of the side whose outward normal is an axis of O, or empty.
 std::string side_name(const Vec2& n) {
@@ -196,19 +191,13 @@ OutlineProperties properties_of(const std::vector<Vec2>& outline) {
 }
 
 double depth_inside(const std::vector<Vec2>& outline, const Vec2& p_O) {
-  double distance = std::numeric_limits<double>::infinity();
-  bool inside = false;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Vec2& a = outline[i];
-    const Vec2& b = outline[(i + 1) % outline.size()];
-    distance = std::min(distance, distance_to_segment(p_O, a, b));
-    const bool straddles = (a.y() > p_O.y()) != (b.y() > p_O.y());
-    if (straddles) {
-      const double x = a.x() + (p_O.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
-      if (p_O.x() < x) inside = !inside;
-    }
+  double squared_distance = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0, before = outline.size() - 1; i < outline.size(); before = i++) {
+    squared_distance = std::min(
+        squared_distance, squared_distance_to_segment(p_O, outline[before], outline[i]));
   }
-  return inside ? distance : -distance;
+  const double distance = std::sqrt(squared_distance);
+  return is_inside(outline, p_O) ? distance : -distance;
 }
 
 bool contains(const std::vector<Vec2>& outline, const Vec2& p_O) {

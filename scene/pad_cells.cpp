@@ -7,7 +7,10 @@
 namespace prehensile {
 namespace {
 
-void finish(PadCell& cell) {
+/// Beyond rounding: a circle about a cell that surely holds it.
+constexpr double kWider = 1.0 + 1e-9;
+
+void find_measure(PadCell& cell) {
   if (cell.count == 2) {
     cell.measure = (cell.vertices[1] - cell.vertices[0]).norm();
     cell.centroid = 0.5 * (cell.vertices[0] + cell.vertices[1]);
@@ -21,6 +24,10 @@ void finish(PadCell& cell) {
     }
     cell.centroid = moment / cell.measure;
   }
+}
+
+void finish(PadCell& cell) {
+  find_measure(cell);
   for (int i = 0; i < cell.count; ++i) {
     cell.reach = std::max(cell.reach, (cell.vertices[i] - cell.centroid).norm());
   }
@@ -100,20 +107,36 @@ std::vector<PadCell> polygon_cells(const std::vector<Vec2>& outline, int per_sid
 
 /// Cuts the polygon by the half-plane left of a -> b (Sutherland and Hodgman 1974).
 void clip(PadCell& polygon, const Vec2& a, const Vec2& b) {
-  PadCell result;
   const Vec2 d = b - a;
+  std::array<double, PadCell::kMaxVertices> left;
+  bool all_left = true;
   for (int i = 0; i < polygon.count; ++i) {
+    left[i] = cross(d, polygon.vertices[i] - a);
+    all_left = all_left && left[i] >= 0.0;
+  }
+  if (all_left) return;
+  PadCell result;
+  for (int i = 0; i < polygon.count; ++i) {
+    const int next = (i + 1) % polygon.count;
     const Vec2& p = polygon.vertices[i];
-    const Vec2& q = polygon.vertices[(i + 1) % polygon.count];
-    const double at_p = cross(d, p - a);
-    const double at_q = cross(d, q - a);
-    if (at_p >= 0.0) result.vertices[result.count++] = p;
+    const Vec2& q = polygon.vertices[next];
+    if (left[i] >= 0.0) result.vertices[result.count++] = p;
     const bool closes = polygon.count > 2 || i == 0;
-    if (closes && (at_p >= 0.0) != (at_q >= 0.0)) {
-      result.vertices[result.count++] = p + at_p / (at_p - at_q) * (q - p);
+    if (closes && (left[i] >= 0.0) != (left[next] >= 0.0)) {
+      result.vertices[result.count++] = p + left[i] / (left[i] - left[next]) * (q - p);
     }
   }
   polygon = result;
+}
+
+/// Whether a circle about p lies right of one of the sides.
+bool is_beside(const Triangle& triangle, const Vec2& p, double radius) {
+  for (int i = 0; i < 3; ++i) {
+    const Vec2 d = triangle.vertices[(i + 1) % 3] - triangle.vertices[i];
+    const double left = cross(d, p - triangle.vertices[i]);
+    if (left < 0.0 && left * left > radius * radius * d.squaredNorm()) return true;
+  }
+  return false;
 }
 
 struct CellsOf {
@@ -155,34 +178,36 @@ std::vector<PadCell> pad_cells(const Pad& pad, const PadPressure& pressure,
   for (PadCell& cell : cells) {
     cell.pressure = density(cell.centroid);
     cell.centroid *= wanted * load / torque;
+    cell.within = kWider * (cell.centroid.norm() + cell.reach);
   }
   return cells;
 }
 
 PressedCell press(const PadCell& cell, const std::vector<Triangle>& face,
-                  const PlanarPose& X_OH) noexcept {
+                  const CellFrame& frame) noexcept {
   PadCell whole;
   whole.count = cell.count;
-  for (int i = 0; i < cell.count; ++i)
-    whole.vertices[i] = transform(X_OH, cell.vertices[i]);
-  PadCell unscaled = whole;
-  finish(unscaled);
+  for (int i = 0; i < cell.count; ++i) whole.vertices[i] = frame.in_object(cell.vertices[i]);
+  finish(whole);
   PressedCell pressed;
   Vec2 moment = Vec2::Zero();
   for (const Triangle& triangle : face) {
-    PadCell part = whole;
+    if (is_beside(triangle, whole.centroid, kWider * whole.reach)) continue;
+    PadCell part;
+    part.count = whole.count;
+    part.vertices = whole.vertices;
     for (int i = 0; i < 3 && part.count > 0; ++i) {
       clip(part, triangle.vertices[i], triangle.vertices[(i + 1) % 3]);
     }
     if (part.count < 2 || (cell.count > 2 && part.count < 3)) continue;
-    finish(part);
+    find_measure(part);
     if (!(part.measure > 0.0)) continue;
     pressed.measure += part.measure;
     moment += part.measure * part.centroid;
   }
   if (pressed.measure <= 0.0) return pressed;
-  const Vec2 shift = moment / pressed.measure - unscaled.centroid;
-  pressed.centroid = cell.centroid + rotated(-X_OH.theta, shift);
+  const Vec2 shift = moment / pressed.measure - whole.centroid;
+  pressed.centroid = cell.centroid + frame.turned_to_hand(shift);
   return pressed;
 }
 

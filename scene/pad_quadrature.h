@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "scene/contact_region.h"
@@ -53,6 +54,7 @@ struct PadCell {
   double measure = 0.0;          ///< [m^2], or [m] for a segment
   Vec2 centroid = Vec2::Zero();  ///< [m]
   double reach = 0.0;            ///< [m] farthest vertex from the centroid
+  double within = 0.0;           ///< [m] of the finger axis: no vertex is farther
   double pressure = 1.0;         ///< at the centroid, up to a factor common to the pad
 };
 
@@ -61,12 +63,30 @@ struct PadCell {
 /// loses no torque at the moment it starts to leave the face.
 std::vector<PadCell> pad_cells(const Pad& pad, const PadPressure& pressure, int per_side);
 
+/// Where the cells of a pad lie on the object at one pose.
+class CellFrame {
+ public:
+  explicit CellFrame(const PlanarPose& X_OH)
+      : p_OH_(translation(X_OH)), cos_(std::cos(X_OH.theta)), sin_(std::sin(X_OH.theta)) {}
+
+  Vec2 in_object(const Vec2& p_H) const {
+    return p_OH_ + Vec2(cos_ * p_H.x() - sin_ * p_H.y(), sin_ * p_H.x() + cos_ * p_H.y());
+  }
+  Vec2 turned_to_hand(const Vec2& v_O) const {
+    return {cos_ * v_O.x() + sin_ * v_O.y(), cos_ * v_O.y() - sin_ * v_O.x()};
+  }
+
+ private:
+  Vec2 p_OH_;
+  double cos_, sin_;
+};
+
 /// The part of a cell that lies on the face; measure 0 if none.
 struct PressedCell {
   double measure = 0.0;
   Vec2 centroid = Vec2::Zero();  ///< in H
 };
 PressedCell press(const PadCell& cell, const std::vector<Triangle>& face,
-                  const PlanarPose& X_OH) noexcept;
+                  const CellFrame& frame) noexcept;
 
 }  // namespace prehensile

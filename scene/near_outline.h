@@ -1,0 +1,43 @@
+/// An outline as it looks from near one place: for many questions about points there.
+/// Internal to the scene layer.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "scene/frames.h"
+
+namespace prehensile {
+
+/// Of p from the segment a, b [m^2].
+double squared_distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b);
+
+/// By crossings of a ray; either, on the border.
+bool is_inside(const std::vector<Vec2>& outline, const Vec2& p);
+
+/// An outline and the distance of its edges from one place; no heap. The outline must
+/// outlive it.
+class NearOutline {
+ public:
+  /// Edges farther away than `radius` [m] are left out.
+  NearOutline(const std::vector<Vec2>& outline, const Vec2& centre,
+              double radius) noexcept;
+
+  /// `depth_inside` of a point p, where no edge farther than `within` from the centre is
+  /// nearest to it; elsewhere the absolute value may be too large.
+  double depth_at(const Vec2& p, double within) const noexcept;
+
+ private:
+  static constexpr std::size_t kMostNear = 32;  // where there are more, all are looked at
+  struct Edge {
+    Vec2 a, b;
+    double squared_distance;
+  };
+
+  const std::vector<Vec2>& outline_;
+  std::array<Edge, kMostNear> near_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace prehensile

@@ -150,6 +150,25 @@ std::vector<Generator> fan_at(const SearchModel& search, const PadEnvelope& enve
   return fan;
 }
 
+const std::vector<Generator>& Fans::at(const Vec2& p_OF, double depth, Work& work) {
+  const Key key{p_OF.x(), p_OF.y(), depth};
+  const auto found = known_.find(key);
+  if (found != known_.end()) {
+    work.stick_tests += found->second.work;
+    return found->second.fan;
+  }
+  if (generators_ > kMostGenerators) {
+    known_.clear();
+    generators_ = 0;
+  }
+  const std::int64_t before = work.stick_tests;
+  Known& known = known_[key];
+  known.fan = fan_at(search_, envelope_, p_OF, depth, work);
+  known.work = work.stick_tests - before;
+  generators_ += known.fan.size();
+  return known.fan;
+}
+
 std::optional<Combination> combine(const std::vector<Generator>& fan, const Vec3& step,
                                    double free_rotation_cost) {
   Basis basis(fan, step, free_rotation_cost);

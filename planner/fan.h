@@ -8,6 +8,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -28,6 +30,29 @@ struct Generator {
 /// to its middle.
 std::vector<Generator> fan_at(const SearchModel& search, const PadEnvelope& envelope,
                               const Vec2& p_OF, double depth, Work& work);
+
+/// Fans of a search that comes by the same places again and again.
+class Fans {
+ public:
+  Fans(const SearchModel& search, const PadEnvelope& envelope)
+      : search_(search), envelope_(envelope) {}
+
+  /// `fan_at`; valid until the next call. Counts as much work where it is known already.
+  const std::vector<Generator>& at(const Vec2& p_OF, double depth, Work& work);
+
+ private:
+  using Key = std::array<double, 3>;  // p_OF, depth
+  struct Known {
+    std::vector<Generator> fan;
+    std::int64_t work = 0;
+  };
+  static constexpr std::size_t kMostGenerators = 300'000;  // 10 MB
+
+  const SearchModel& search_;
+  const PadEnvelope& envelope_;
+  std::map<Key, Known> known_;
+  std::size_t generators_ = 0;
+};
 
 /// Non-negative multiples of up to three generators.
 struct Combination {

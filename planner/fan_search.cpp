@@ -43,7 +43,7 @@ class FanSearch {
  public:
   FanSearch(const SearchModel& search, const PadEnvelope& envelope, const Limits& limits,
             Work& work)
-      : search_(search), envelope_(envelope), limits_(limits), work_(work) {}
+      : search_(search), fans_(search, envelope), limits_(limits), work_(work) {}
 
   std::optional<Moves> run(const FlatState& start, const GoalPlaces& goals) {
     for (int i = 0; i < goals.count && !limits_.reached(); ++i) {
@@ -88,7 +88,7 @@ class FanSearch {
     for (std::size_t k = 1; k <= pieces; ++k) {
       const double share = static_cast<double>(k) / static_cast<double>(pieces);
       FlatState next{places[k], std::lerp(from.theta, to.theta, share)};
-      if (!step(fan_at(search_, envelope_, at.p_OF, depth, work_), at, next, false,
+      if (!step(fans_.at(at.p_OF, depth, work_), at, next, false,
                 moves)) {
         return std::nullopt;
       }
@@ -185,7 +185,7 @@ class FanSearch {
     Moves moves;
     FlatState at = from;
     for (std::size_t k = 1; k < places.size(); ++k) {
-      std::vector<Generator> fan = fan_at(search_, envelope_, at.p_OF, depth, work_);
+      std::vector<Generator> fan = fans_.at(at.p_OF, depth, work_);
       free_rotation(fan);
       FlatState next{places[k], at.theta};
       if (!step(fan, at, next, true, moves)) return std::nullopt;
@@ -210,7 +210,7 @@ class FanSearch {
   }
 
   bool controllable(const Vec2& p_OF) {
-    return is_controllable(fan_at(search_, envelope_, p_OF, kDepths[1], work_));
+    return is_controllable(fans_.at(p_OF, kDepths[1], work_));
   }
 
   /// Controllable places, nearest to p_OF along the object first; p_OF itself alone where
@@ -270,7 +270,7 @@ class FanSearch {
   }
 
   const SearchModel& search_;
-  const PadEnvelope& envelope_;
+  Fans fans_;
   const Limits& limits_;
   Work& work_;
 };

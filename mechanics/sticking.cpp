@@ -104,7 +104,8 @@ struct Tilts {
 /// Cone and ends as cone_slack and end_slack say, but drag and gravity turned to the
 /// worst, each row by itself, and the finger axis off its place.
 double turned_slack(const StickContact& weak, const FingerPath& path, const PadDrag& drag,
-                    double gravity, const Margin& margin, const Tilts& tilts) {
+                    double gravity, const Margin& margin, const Tilts& tilts,
+                    double least) {
   const auto row = [&](double n, double t) {
     const Vec2 w = n * weak.n + t * weak.t;
     return least_turned(w.dot(drag.force), cross(w, drag.force), tilts.drag) +
@@ -113,7 +114,7 @@ double turned_slack(const StickContact& weak, const FingerPath& path, const PadD
   };
   double slack = std::min(row(weak.mu, -1.0), row(weak.mu, 1.0));
   if (weak.mu == 0.0) slack = std::min(slack, row(1.0, 0.0));
-  if (weak.is_point) return slack;
+  if (weak.is_point || slack < least) return slack;
   const auto moment = [&](double sign, const Vec2& end) {
     const Vec2 lever = weak.p_OCom - end;
     return sign * drag.moment - margin.grasp * drag.force.norm() +
@@ -128,14 +129,18 @@ double turned_slack(const StickContact& weak, const FingerPath& path, const PadD
 }
 
 /// Least slack of a weakened contact at one drag over the box of m/F and centre of mass,
-/// in both of which the rows are affine, and over tilt and place of the finger axis.
+/// in both of which the rows are affine, and over tilt and place of the finger axis; as
+/// much of it as tells that it is below `least`.
 double slack_of_drag(const StickContact& weak, const FingerPath& path,
-                     const PadDrag& drag, const Margin& margin, const Tilts& tilts) {
+                     const PadDrag& drag, const Margin& margin, const Tilts& tilts,
+                     double least = -kInfinity) {
   const bool straight = tilts.drag == 0.0 && tilts.gravity == 0.0 && margin.grasp == 0.0;
   double slack = kInfinity;
   for (const double gravity : {margin.least_weight(), margin.most_weight()}) {
     if (!straight) {
-      slack = std::min(slack, turned_slack(weak, path, drag, gravity, margin, tilts));
+      slack =
+          std::min(slack, turned_slack(weak, path, drag, gravity, margin, tilts, least));
+      if (slack < least) return slack;
       continue;
     }
     const Effort effort = effort_of(weak, path.p_OF, drag, gravity);
@@ -190,16 +195,23 @@ StickTest stick_test(const StickContact& contact, double F, const Vec2& p_OF,
 }
 
 double robust_slack(const StickContact& contact, const Vec2& p_OF, const Vec2& velocity,
-                    double omega, const Margin& margin) noexcept {
+                    double omega, const Margin& margin, double least) noexcept {
   if (velocity.isZero(0.0) && omega == 0.0) return kNan;
   const StickContact weak = weakened(contact, margin);
+  double slack = kInfinity;
+  if (!contact.is_point) {
+    slack = advance(contact, weak.a, weak.b, p_OF, velocity, omega, margin);
+    if (slack < least) return slack;
+  }
   const auto slack_at = [&](double c) {
     return slack_of_drag(weak, {p_OF, p_OF}, drag_of_ellipsoid(c, velocity, omega),
-                         margin, {margin.tilt, margin.tilt});
+                         margin, {margin.tilt, margin.tilt}, least);
   };
   const double c_lo = (1.0 - margin.torque_radius) * contact.c;
   const double c_hi = (1.0 + margin.torque_radius) * contact.c;
-  double slack = std::min(slack_at(c_lo), slack_at(c_hi));
+  slack = std::min(slack, slack_at(c_lo));
+  if (slack < least) return slack;
+  slack = std::min(slack, slack_at(c_hi));
   if (contact.is_point) {
     Margin tilt = Margin::none();  // what concerns the friction cone only
     tilt.tilt = margin.tilt;
@@ -209,8 +221,6 @@ double robust_slack(const StickContact& contact, const Vec2& p_OF, const Vec2& v
     return std::min({slack, point_slack(contact, effort, kEllipsoidMoment),
                      advance(contact, point, point, p_OF, velocity, omega, tilt)});
   }
-  slack =
-      std::min(slack, advance(contact, weak.a, weak.b, p_OF, velocity, omega, margin));
   // The moment about an end x has one stationary point in c, where
   // c^2 omega^2 + 2 |v|^2 = omega cross(p - x, v): nearly always outside the box.
   for (const Vec2& end : {weak.a, weak.b}) {

@@ -143,10 +143,11 @@ struct StickTest {
 StickTest stick_test(const StickContact& contact, double F, const Vec2& p_OF,
                      const Vec2& e, double v, double omega) noexcept;
 
-/// Least slack of that instant over the box of uncertainty; velocity = v e, in O. No
-/// heap.
+/// Least slack of that instant over the box of uncertainty; velocity = v e, in O. Where
+/// that is below `least`, anything below it may be returned, which is faster. No heap.
 double robust_slack(const StickContact& contact, const Vec2& p_OF, const Vec2& velocity,
-                    double omega, const Margin& margin) noexcept;
+                    double omega, const Margin& margin,
+                    double least = -std::numeric_limits<double>::infinity()) noexcept;
 
 /// One instant with the real pad region at this pose: forces nominal, slack worst over
 /// the box, where the torque radius scales the pad about the finger axis. Also holds for

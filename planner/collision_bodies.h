@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 
 #include "mechanics/model.h"
@@ -21,18 +22,22 @@ class CollisionBodies {
   CollisionBodies& operator=(const CollisionBodies&) = delete;
 
   /// Least distance from the fixture of the hand at X_WH, or of the object at X_WO [m],
-  /// lifted by z [m]; 0 where they overlap, and `enough` where it is at least that.
-  double hand_distance(const PlanarPose& X_WH, double enough, double z = 0.0) const;
-  double object_distance(const PlanarPose& X_WO, double enough, double z = 0.0) const;
+  /// lifted by z [m]; 0 where they overlap, and `enough` where it is at least that. What
+  /// is at least `coarse` may be less than the distance.
+  double hand_distance(const PlanarPose& X_WH, double enough, double z = 0.0,
+                       double coarse = kNever) const;
+  double object_distance(const PlanarPose& X_WO, double enough, double z = 0.0,
+                         double coarse = kNever) const;
 
   /// How far from their z axes hand and object reach [m].
   double hand_reach() const;
   double object_reach() const;
 
-  /// Pairs of bodies looked at so far.
+  /// Pairs of bodies that the library was asked for so far.
   std::int64_t queries() const;
 
  private:
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
   struct Bodies;
   std::unique_ptr<Bodies> bodies_;
 };

@@ -32,14 +32,20 @@ constexpr double kResolution = 2e-4;
 constexpr std::int64_t kWorkOfQuery = 10;  // of a pair of bodies, in stick tests
 constexpr int kBlockedTurns = 12;
 
-/// Whether all points of a way keep `need` of distance. `distance(done, enough)` is that
-/// after this part of the way [m], or `enough` where it is more; no point of the body
-/// moves farther than the way is long.
+/// Where no more than this share of the rest of a way is cleared by a look, the look is
+/// made as well as can be.
+constexpr double kCoarseLook = 0.25;
+
+/// Whether all points of a way keep `need` of distance. `distance(done, enough, coarse)`
+/// is that after this part of the way [m], or `enough` where it is more, or something
+/// between `coarse` and the distance; no point of the body moves farther than the way is
+/// long.
 template <class Distance>
 bool stays_clear(double way, double need, double resolution, const Distance& distance) {
   for (double done = 0.0;;) {
     const double left = way - done;
-    const double room = distance(done, need + left + resolution) - need;
+    const double coarse = need + std::max(kCoarseLook * left, resolution);
+    const double room = distance(done, need + left + resolution, coarse) - need;
     if (room < resolution) return false;
     if (room >= left) return true;
     done += room - 0.5 * resolution;
@@ -139,9 +145,11 @@ bool Confines::object_collides(const PushContact& contact,
                                const PlanarPose& X_WO) const noexcept {
   const Vec2 n = rotated(X_WO.theta, contact.n);
   const double way = std::max(0.0, approach_ - kTouch);
-  return !stays_clear(way, 0.0, kResolutionOfObject, [&](double done, double enough) {
-    return bodies_->object_distance(moved(X_WO, (kTouch + done) * n), enough);
-  });
+  return !stays_clear(way, 0.0, kResolutionOfObject,
+                      [&](double done, double enough, double coarse) {
+                        return bodies_->object_distance(moved(X_WO, (kTouch + done) * n),
+                                                        enough, 0.0, coarse);
+                      });
 }
 
 bool Confines::hand_collides_along(const PlanarPose& X_WO,
@@ -149,22 +157,23 @@ bool Confines::hand_collides_along(const PlanarPose& X_WO,
   const Vec2 d = move.to.p_OF - move.from.p_OF;
   const double turn = move.to.theta - move.from.theta;
   const double way = d.norm() + bodies_->hand_reach() * std::abs(turn);
-  return !stays_clear(way, clearance_, kResolution, [&](double done, double enough) {
-    const double s = way > 0.0 ? done / way : 0.0;
-    const PlanarPose X_WH =
-        hand_in_world(X_WO, move.from.p_OF + s * d, move.from.theta + s * turn);
-    return bodies_->hand_distance(X_WH, enough);
-  });
+  return !stays_clear(
+      way, clearance_, kResolution, [&](double done, double enough, double coarse) {
+        const double s = way > 0.0 ? done / way : 0.0;
+        const PlanarPose X_WH =
+            hand_in_world(X_WO, move.from.p_OF + s * d, move.from.theta + s * turn);
+        return bodies_->hand_distance(X_WH, enough, 0.0, coarse);
+      });
 }
 
 bool Confines::hand_collides_away(const PushContact& contact, const PlanarPose& X_WO,
                                   const FlatState& state) const noexcept {
   const PlanarPose X_WH = hand_in_world(X_WO, state.p_OF, state.theta);
   const Vec2 n = rotated(X_WO.theta, contact.n);
-  return !stays_clear(approach_, clearance_, kResolution,
-                      [&](double done, double enough) {
-                        return bodies_->hand_distance(moved(X_WH, done * n), enough);
-                      });
+  return !stays_clear(
+      approach_, clearance_, kResolution, [&](double done, double enough, double coarse) {
+        return bodies_->hand_distance(moved(X_WH, done * n), enough, 0.0, coarse);
+      });
 }
 
 bool Confines::collides(const SearchModel& search, const Move& move,
@@ -198,12 +207,12 @@ bool Confines::is_blocked(const SearchModel& search, int contact, const Vec2& p_
   const double low = std::max(theta_.low, -std::numbers::pi);
   const double high = std::min(theta_.high, low + kTurn);
   const std::int64_t before = bodies_->queries();
+  const double near = clearance_ + kResolution;
   bool blocked = true;
   for (int i = 0; i < kBlockedTurns && blocked; ++i) {
     const double theta = std::lerp(low, high, (i + 0.5) / kBlockedTurns);
     const PlanarPose X_WH = hand_in_world(X_WO, p_OF, theta);
-    blocked =
-        bodies_->hand_distance(X_WH, clearance_ + kResolution) < clearance_ + kResolution;
+    blocked = bodies_->hand_distance(X_WH, near, 0.0, near) < near;
   }
   work.other += kWorkOfQuery * (bodies_->queries() - before);
   return blocked;

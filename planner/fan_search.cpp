@@ -88,8 +88,7 @@ class FanSearch {
     for (std::size_t k = 1; k <= pieces; ++k) {
       const double share = static_cast<double>(k) / static_cast<double>(pieces);
       FlatState next{places[k], std::lerp(from.theta, to.theta, share)};
-      if (!step(fans_.at(at.p_OF, depth, work_), at, next, false,
-                moves)) {
+      if (!step(fans_.at(at.p_OF, depth, work_), at, next, false, moves)) {
         return std::nullopt;
       }
       at = next;

@@ -48,6 +48,7 @@ class DirectedDrag {
  public:
   /// `e`: motion of the object in the hand (unit, in O). Model and pads must outlive it.
   DirectedDrag(const Model& model, const PadsAtPlace& pads, const Vec2& e);
+  DirectedDrag(const Model& model, PadsAtPlace&& pads, const Vec2& e) = delete;
 
   /// The kappas for which a contact sticks at all of the angles while the finger axis is
   /// at p_OF. No heap.

@@ -145,8 +145,9 @@ bool passes_closed_form(const SearchModel& search, int index, const FlatState& f
   ++work.stick_tests;
   const SearchContact& contact = search.contacts[index];
   const Motion motion(from, to);
-  const double slack = robust_slack(contact.stick, from.p_OF, motion.velocity,
-                                    motion.omega, search.margin_from(from.p_OF));
+  const double slack =
+      robust_slack(contact.stick, from.p_OF, motion.velocity, motion.omega,
+                   search.margin_from(from.p_OF), -kStickTolerance);
   if (!(slack >= -kStickTolerance)) return false;  // NaN: goes nowhere
   const PushContact& pushed = search.model->contacts[contact.contact];
   return held(search, pushed, from.p_OF) && held(search, pushed, to.p_OF);

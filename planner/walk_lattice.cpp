@@ -76,8 +76,7 @@ void WalkLattice::find_held(Node& node, Work& work) const {
   }
 }
 
-KappaRanges WalkLattice::slopes_along(Node& node, int contact,
-                                      DirectedDrag& drag) const {
+KappaRanges WalkLattice::slopes_along(Node& node, int contact, DirectedDrag& drag) const {
   if (!node.held[contact]) return {};
   return drag.kappas(weak_[contact], node.p_OF);
 }

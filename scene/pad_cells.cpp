@@ -187,7 +187,8 @@ PressedCell press(const PadCell& cell, const std::vector<Triangle>& face,
                   const CellFrame& frame) noexcept {
   PadCell whole;
   whole.count = cell.count;
-  for (int i = 0; i < cell.count; ++i) whole.vertices[i] = frame.in_object(cell.vertices[i]);
+  for (int i = 0; i < cell.count; ++i)
+    whole.vertices[i] = frame.in_object(cell.vertices[i]);
   finish(whole);
   PressedCell pressed;
   Vec2 moment = Vec2::Zero();

@@ -67,7 +67,9 @@ std::vector<PadCell> pad_cells(const Pad& pad, const PadPressure& pressure, int 
 class CellFrame {
  public:
   explicit CellFrame(const PlanarPose& X_OH)
-      : p_OH_(translation(X_OH)), cos_(std::cos(X_OH.theta)), sin_(std::sin(X_OH.theta)) {}
+      : p_OH_(translation(X_OH)),
+        cos_(std::cos(X_OH.theta)),
+        sin_(std::sin(X_OH.theta)) {}
 
   Vec2 in_object(const Vec2& p_H) const {
     return p_OH_ + Vec2(cos_ * p_H.x() - sin_ * p_H.y(), sin_ * p_H.x() + cos_ * p_H.y());

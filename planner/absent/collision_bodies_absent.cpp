@@ -10,12 +10,12 @@ CollisionBodies::CollisionBodies(const Model& /*model*/) {}
 CollisionBodies::~CollisionBodies() = default;
 
 double CollisionBodies::hand_distance(const PlanarPose& /*X_WH*/, double /*enough*/,
-                                      double /*z*/) const {
+                                      double /*z*/, double /*coarse*/) const {
   return 0.0;
 }
 
 double CollisionBodies::object_distance(const PlanarPose& /*X_WO*/, double /*enough*/,
-                                        double /*z*/) const {
+                                        double /*z*/, double /*coarse*/) const {
   return 0.0;
 }
 

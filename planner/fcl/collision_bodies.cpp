@@ -1,6 +1,7 @@
 #include "planner/collision_bodies.h"
 
 #include <algorithm>
+#include <array>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/convex.h>
@@ -109,6 +110,40 @@ std::vector<Solid> solids_of(const std::vector<ConvexBody>& bodies) {
   return {bodies.begin(), bodies.end()};
 }
 
+/// Along which bodies of its kind are told apart from others.
+std::array<Vec3, 3> sides_of(const Solid& body, const Eigen::Isometry3d& X_WB,
+                             const Vec3& towards) {
+  if (std::holds_alternative<BoxShape>(body.shape)) {
+    return {X_WB.linear().col(0), X_WB.linear().col(1), X_WB.linear().col(2)};
+  }
+  const Vec3 axis = X_WB.linear().col(static_cast<int>(axis_of(body.shape)));
+  const Vec3 across = towards - axis.dot(towards) * axis;
+  const double length = across.norm();
+  return {axis, length > 0.0 ? Vec3(across / length) : axis, axis};
+}
+
+/// No more than the distance of two bodies: the widest gap between planes across the line
+/// of their centres and along their sides. A prism has only the former.
+double gap_of(const Solid& body, const Eigen::Isometry3d& X_WB, const Solid& fixed) {
+  const Vec3 apart = X_WB.translation() - fixed.pose.translation();
+  const auto gap_along = [&](const Vec3& w) {
+    const Vec3 n = w.dot(apart) < 0.0 ? Vec3(-w) : w;
+    return n.dot(apart) +
+           std::visit(LeastAlong{X_WB.linear().transpose() * n}, body.shape) +
+           std::visit(LeastAlong{-(fixed.pose.linear().transpose() * n)}, fixed.shape);
+  };
+  const double distance = apart.norm();
+  if (!(distance > 0.0)) return 0.0;
+  double gap = gap_along(apart / distance);
+  for (const Solid* solid : {&body, &fixed}) {
+    if (std::holds_alternative<PrismShape>(solid->shape)) continue;
+    for (const Vec3& w : sides_of(*solid, solid == &body ? X_WB : solid->pose, apart)) {
+      gap = std::max(gap, gap_along(w));
+    }
+  }
+  return gap;
+}
+
 /// Of a body from a half-space at rest in W.
 double distance_from_plane(const Solid& body, const Eigen::Isometry3d& X_WB,
                            const Solid& plane) {
@@ -127,11 +162,11 @@ struct CollisionBodies::Bodies {
   std::int64_t queries = 0;
 
   double distance(const std::vector<Solid>& moving, const Eigen::Isometry3d& X_W,
-                  double enough) {
+                  double enough, double coarse) {
     double least = enough;
     for (const Solid& body : moving) {
       for (const Solid& fixed : fixture) {
-        least = std::min(least, distance_of_pair(body, X_W, fixed, least));
+        least = std::min(least, distance_of_pair(body, X_W, fixed, least, coarse));
         if (least <= 0.0) return 0.0;
       }
     }
@@ -139,11 +174,13 @@ struct CollisionBodies::Bodies {
   }
 
   double distance_of_pair(const Solid& body, const Eigen::Isometry3d& X_W,
-                          const Solid& fixed, double least) {
+                          const Solid& fixed, double least, double coarse) {
     const Eigen::Isometry3d X_WB = X_W * body.pose;
     if (!fixed.geometry) return distance_from_plane(body, X_WB, fixed);
     const double apart = (X_WB.translation() - fixed.pose.translation()).norm();
     if (apart - body.radius - fixed.radius >= least) return least;
+    const double gap = gap_of(body, X_WB, fixed);
+    if (gap >= std::min(least, coarse)) return gap;
     ++queries;
     return distance_by_fcl(body, X_W, fixed);
   }
@@ -184,14 +221,14 @@ CollisionBodies::CollisionBodies(const Model& model)
 
 CollisionBodies::~CollisionBodies() = default;
 
-double CollisionBodies::hand_distance(const PlanarPose& X_WH, double enough,
-                                      double z) const {
-  return bodies_->distance(bodies_->hand, in_space(X_WH, z), enough);
+double CollisionBodies::hand_distance(const PlanarPose& X_WH, double enough, double z,
+                                      double coarse) const {
+  return bodies_->distance(bodies_->hand, in_space(X_WH, z), enough, coarse);
 }
 
-double CollisionBodies::object_distance(const PlanarPose& X_WO, double enough,
-                                        double z) const {
-  return bodies_->distance(bodies_->object, in_space(X_WO, z), enough);
+double CollisionBodies::object_distance(const PlanarPose& X_WO, double enough, double z,
+                                        double coarse) const {
+  return bodies_->distance(bodies_->object, in_space(X_WO, z), enough, coarse);
 }
 
 double CollisionBodies::hand_reach() const { return bodies_->hand_reach; }

@@ -103,6 +103,28 @@ TEST(StickingMargin, NoMemberSlipsWhereTheRobustTestsHold) {
   EXPECT_GT(empty_by_margin, 100);
 }
 
+TEST(StickingMargin, WhatIsBelowAWantedSlackIsToldSooner) {
+  Random random(3);
+  int below = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const StickContact contact = random_contact(random);
+    const Margin margin = random_margin(random);
+    const Vec2 p_OF = random.in_disc(0.05);
+    const Vec2 e = random.direction();
+    const double omega = random.in(-2.0, 2.0) / contact.c;
+    const double least = random.in(-0.5, 0.1);
+    const double slack = robust_slack(contact, p_OF, e, omega, margin);
+    const double sooner = robust_slack(contact, p_OF, e, omega, margin, least);
+    if (slack < least) {
+      EXPECT_LT(sooner, least) << i;
+      ++below;
+    } else {
+      EXPECT_EQ(sooner, slack) << i;
+    }
+  }
+  EXPECT_GT(below, 1000);
+}
+
 /// The bound is worth having only if it is near what the box can do.
 TEST(StickingMargin, TheWorstMemberIsNear) {
   Random random(2);

@@ -73,6 +73,29 @@ TEST(Fan, TheCombinationIsTheCheapestOfAll) {
   EXPECT_GE(reached, 100);
 }
 
+TEST(Fan, WhatIsRememberedIsTheSameAndCountsTheSame) {
+  const Model model = prepare(testing::walled_square());
+  const SearchModel search = prepare_search(model, Margin::none());
+  const PadEnvelope envelope(model, search.margin);
+  Fans fans(search, envelope);
+  Random random(3);
+  const std::vector<Vec2> places = {random.in_box(0.03, 0.03), random.in_box(0.03, 0.03)};
+  for (int i = 0; i < 20; ++i) {
+    const Vec2& place = places[static_cast<std::size_t>(random.below(2))];
+    const double depth = random.chance(0.5) ? 0.1 : 0.3;
+    Work work;
+    Work work_anew;
+    const std::vector<Generator>& fan = fans.at(place, depth, work);
+    const std::vector<Generator> anew = fan_at(search, envelope, place, depth, work_anew);
+    EXPECT_EQ(work.done(), work_anew.done());
+    ASSERT_EQ(fan.size(), anew.size());
+    for (std::size_t k = 0; k < fan.size(); ++k) {
+      EXPECT_EQ(fan[k].contact, anew[k].contact);
+      EXPECT_EQ(fan[k].u, anew[k].u);
+    }
+  }
+}
+
 TEST(Fan, ControllableIsWhatCombinesToEveryStep) {
   Random random(2);
   int controllable = 0;

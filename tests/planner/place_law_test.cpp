@@ -25,7 +25,8 @@ bool holds(const KappaRanges& ranges, double kappa) {
 
 KappaRanges ranges_at(const SearchModel& search, int contact, const Vec2& p_OF,
                       const Vec2& e) {
-  const DirectedDrag drag(*search.model, PadsAtPlace(*search.model, p_OF), e);
+  const PadsAtPlace pads(*search.model, p_OF);
+  DirectedDrag drag(*search.model, pads, e);
   return drag.kappas(search.contacts[static_cast<std::size_t>(contact)].stick, p_OF);
 }
 

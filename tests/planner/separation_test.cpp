@@ -69,6 +69,7 @@ TEST(Separation, AgreesWithTheLibrary) {
   if (!collisions_are_built()) GTEST_SKIP() << "built without FCL";
   Random random(6);
   int apart = 0;
+  int coarser = 0;
   for (int i = 0; i < 500; ++i) {
     Scene scene = testing::walled_square();
     const ConvexBody hand = any_body(random);
@@ -82,8 +83,14 @@ TEST(Separation, AgreesWithTheLibrary) {
                                   {&fixture, pose_of(fixture)});
     if (gap > 1e-4) ++apart;
     EXPECT_NEAR(found, std::max(0.0, gap), 1e-5) << i;
+    const double coarse = random.log_in(1e-3, 0.3);
+    const double about = CollisionBodies(model).hand_distance(X_WH, 1.0, 0.0, coarse);
+    EXPECT_LE(about, found + 1e-5) << i;
+    EXPECT_GE(about, std::min(found, coarse) - 1e-5) << i;
+    coarser += about < found - 1e-3 ? 1 : 0;
   }
   EXPECT_GT(apart, 100);
+  EXPECT_GT(coarser, 20);
 }
 
 TEST(Separation, TheObjectIsMadeUpOfItsPieces) {

@@ -1,0 +1,51 @@
+#include "scene/near_outline.h"
+
+#include <gtest/gtest.h>
+
+#include "scene/outline.h"
+#include "tests/support/random.h"
+
+namespace prehensile {
+namespace {
+
+using testing::Random;
+
+/// About the origin, between 0.02 and 0.06 m from it.
+std::vector<Vec2> random_star(int vertices, Random& random) {
+  std::vector<Vec2> outline;
+  for (int i = 0; i < vertices; ++i) {
+    const double angle = 2.0 * std::numbers::pi * (i + random.in(0.1, 0.9)) / vertices;
+    outline.push_back(rotated(angle, {random.in(0.02, 0.06), 0.0}));
+  }
+  return outline;
+}
+
+/// Depths that are less than what may be missed are those of the whole outline.
+TEST(NearOutline, KnowsTheDepthWhereItIsSmall) {
+  Random random(1);
+  int small = 0;
+  for (int i = 0; i < 300; ++i) {
+    const std::vector<Vec2> outline = random_star(3 + random.below(60), random);
+    const Vec2 centre = random.in_box(0.07, 0.07);
+    const double radius = random.log_in(1e-3, 0.05);
+    const NearOutline near(outline, centre, radius);
+    for (int k = 0; k < 50; ++k) {
+      const double within = random.in(0.0, radius);
+      const Vec2 p = centre + random.in_disc(within);
+      const double reach = within - (p - centre).norm();
+      const double depth = depth_inside(outline, p);
+      const double found = near.depth_at(p, within);
+      EXPECT_EQ(found > 0.0, depth > 0.0) << i;
+      if (std::abs(depth) < reach) {
+        EXPECT_EQ(found, depth) << i;
+        ++small;
+      } else {
+        EXPECT_GE(std::abs(found), std::abs(depth)) << i;
+      }
+    }
+  }
+  EXPECT_GT(small, 1000);
+}
+
+}  // namespace
+}  // namespace prehensile

@@ -146,10 +146,8 @@ class CheatField {
         if (!grid_.has(i + step.i, j + step.j)) continue;
         const int next = grid_.index(i + step.i, j + step.j);
         if (value >= cost[next]) continue;
-        double cheating = free.cheating(step.angle, freely);
-        if (both_ends_ && cheating > 0.0) {
-          cheating = std::min(cheating, free_of(next).cheating(step.angle, freely));
-        }
+        const double cheating = both_ends_ ? cheating_along(node, step, freely)
+                                           : free.cheating(step.angle, freely);
         offer(next, value + step.length * cheating);
       }
     }
@@ -169,6 +167,27 @@ class CheatField {
     int i, j;
     double length, angle;  // [m], [rad]
   };
+
+  /// The mean along a step, of each part what it is at the end where that is less.
+  double cheating_along(int node, const Step& step, double freely) {
+    const int parts = std::max(std::abs(step.i), std::abs(step.j));
+    const auto at = [&](int k) {
+      const auto off = [&](int whole) {
+        return static_cast<int>(std::lround(static_cast<double>(k * whole) / parts));
+      };
+      const int place =
+          grid_.index(grid_.column(node) + off(step.i), grid_.row(node) + off(step.j));
+      return free_of(place).cheating(step.angle, freely);
+    };
+    double sum = 0.0;
+    double before = at(0);
+    for (int k = 1; k <= parts; ++k) {
+      const double now = at(k);
+      sum += std::min(before, now);
+      before = now;
+    }
+    return sum / parts;
+  }
 
   const FreeDirections& free_of(int node) {
     std::optional<FreeDirections>& free = free_[static_cast<std::size_t>(node)];

@@ -14,23 +14,21 @@ constexpr double kAside = 1e-3;
 
 /// Slopes lie evenly in the angle of (1, kappa), up to this kappa.
 constexpr double kMostKappa = 10.0;
+constexpr double kMostKappaIfSteep = 40.0;
 constexpr int kSlopesOfWhole = 181;
 constexpr int kSlopesOfClipped = 61;
+constexpr int kSteepSlopesOfClipped = 121;
 
 /// Angles of the object at which whole and clipped pads are looked at: of these there are
 /// more points.
 constexpr int kAngles = 8;
 constexpr int kAnglesOfClippedDiscs = 3;
 
-double slope_angle(int i, int slopes) {
-  return std::atan(kMostKappa) * (2.0 * i / (slopes - 1) - 1.0);
-}
-
-std::vector<DirectedDrag::Slope> slopes_of(int count) {
+std::vector<DirectedDrag::Slope> slopes_up_to(double most_kappa, int count) {
   std::vector<DirectedDrag::Slope> slopes;
   slopes.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
-    const double angle = slope_angle(i, count);
+    const double angle = std::atan(most_kappa) * (2.0 * i / (count - 1) - 1.0);
     slopes.push_back({angle, std::cos(angle), std::sin(angle)});
   }
   return slopes;
@@ -70,17 +68,25 @@ PadsAtPlace::PadsAtPlace(const Model& model, const Vec2& p_OF)
   }
 }
 
-DirectedDrag::DirectedDrag(const Model& model, const PadsAtPlace& pads, const Vec2& e)
+DirectedDrag::DirectedDrag(const Model& model, const PadsAtPlace& pads, const Vec2& e,
+                           Steepness steepness)
     : model_(model),
       pads_(pads),
       e_(e),
-      slopes_(slopes_for(pads)),
+      slopes_(slopes_for(pads, steepness)),
       angles_(pads.grasps().size()),
       samples_(slopes_.size() * angles_) {}
 
-std::span<const DirectedDrag::Slope> DirectedDrag::slopes_for(const PadsAtPlace& pads) {
-  static const std::vector<Slope> whole = slopes_of(kSlopesOfWhole);
-  static const std::vector<Slope> clipped = slopes_of(kSlopesOfClipped);
+std::span<const DirectedDrag::Slope> DirectedDrag::slopes_for(const PadsAtPlace& pads,
+                                                              Steepness steepness) {
+  static const auto whole = slopes_up_to(kMostKappa, kSlopesOfWhole);
+  static const auto clipped = slopes_up_to(kMostKappa, kSlopesOfClipped);
+  static const auto steep_of_whole = slopes_up_to(kMostKappaIfSteep, kSlopesOfWhole);
+  static const auto steep_of_clipped =
+      slopes_up_to(kMostKappaIfSteep, kSteepSlopesOfClipped);
+  if (steepness == Steepness::kSteep) {
+    return pads.are_whole() ? steep_of_whole : steep_of_clipped;
+  }
   return pads.are_whole() ? whole : clipped;
 }
 

@@ -42,13 +42,21 @@ class PadsAtPlace {
   bool are_whole_;
 };
 
+/// The kappas that are looked at.
+enum class Steepness {
+  kUsual,  ///< up to 10
+  kSteep,  ///< up to 40, at more places
+};
+
 /// Friction of such pads over F, and over F c, for motions in one direction: found where
 /// it is first asked for.
 class DirectedDrag {
  public:
   /// `e`: motion of the object in the hand (unit, in O). Model and pads must outlive it.
-  DirectedDrag(const Model& model, const PadsAtPlace& pads, const Vec2& e);
-  DirectedDrag(const Model& model, PadsAtPlace&& pads, const Vec2& e) = delete;
+  DirectedDrag(const Model& model, const PadsAtPlace& pads, const Vec2& e,
+               Steepness steepness = Steepness::kUsual);
+  DirectedDrag(const Model& model, PadsAtPlace&& pads, const Vec2& e,
+               Steepness steepness = Steepness::kUsual) = delete;
 
   /// The kappas for which a contact sticks at all of the angles while the finger axis is
   /// at p_OF. No heap.
@@ -66,7 +74,7 @@ class DirectedDrag {
     bool known = false;
   };
   class Instants;
-  static std::span<const Slope> slopes_for(const PadsAtPlace& pads);
+  static std::span<const Slope> slopes_for(const PadsAtPlace& pads, Steepness steepness);
   const Sample& sample(std::size_t slope, std::size_t angle) noexcept;
 
   const Model& model_;

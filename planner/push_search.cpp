@@ -60,11 +60,15 @@ std::vector<Move> moves_of(const SearchModel& search, const FlatState& start,
   return moves;
 }
 
+/// Which places a search goes to: those of the goal, or others within its tolerances.
+enum class GoalPart { kItself, kBeside };
+
 /// The stages that know the pads themselves: they cost more, and find what the ellipsoid
-/// hides. `best`: the plan so far, to be improved.
+/// hides. `best`: the plan so far, to be improved. Beside the goal walks turn the object
+/// by as much as it takes at once.
 bool plan_with_real_pads(const SearchModel& search, const FlatState& from,
                          const GoalPlaces& goals, std::optional<FoundChain> best,
-                         const Limits& limits, Work& work, Plan& plan) {
+                         GoalPart part, const Limits& limits, Work& work, Plan& plan) {
   const bool flat = !can_roll(search.model->scene.object);
   std::optional<PadEnvelope> envelope;
   if (flat) envelope.emplace(*search.model, search.margin);
@@ -86,7 +90,10 @@ bool plan_with_real_pads(const SearchModel& search, const FlatState& from,
     append_chain(search, from, best->chain, plan);
     return true;
   }
-  if (!moves) moves = search_walks(search, from, goals, limits, work);
+  if (!moves && part == GoalPart::kItself) {
+    moves = search_walks(search, from, goals, WalkTurns::kFew, limits, work);
+  }
+  if (!moves) moves = search_walks(search, from, goals, WalkTurns::kMany, limits, work);
   if (!moves) return false;
   for (const Move& move : *moves) append_move(search, move, plan);
   return true;
@@ -133,7 +140,8 @@ bool plan_in_plane(const SearchModel& search, const Grasp& start, const Goal& go
     append_chain(search, from, found->chain, plan);
     return true;
   }
-  return plan_with_real_pads(search, from, goals, found, limits, work, plan);
+  return plan_with_real_pads(search, from, goals, found, GoalPart::kItself, limits, work,
+                             plan);
 }
 
 /// The stages of more than two pushes once more, to places that are off the goal by up to
@@ -145,7 +153,8 @@ bool plan_beside_goal(const SearchModel& search, const Grasp& start, const Goal&
   if (places.count == 0) return false;
   const double bound = guide_bound(*search.model, start, goal);
   const auto found = search_chains(search, from, places, bound, limits, work);
-  return plan_with_real_pads(search, from, places, found, limits, work, plan);
+  return plan_with_real_pads(search, from, places, found, GoalPart::kBeside, limits, work,
+                             plan);
 }
 
 /// A baseline with work of its own.

@@ -32,10 +32,11 @@ StickContact weakened(const SearchContact& contact, const Margin& margin) {
 }  // namespace
 
 WalkLattice::WalkLattice(const SearchModel& search, const FlatState& start,
-                         const GoalPlaces& goals, int per_side)
+                         const GoalPlaces& goals, int per_side, Steepness steepness)
     : search_(search),
       model_(*search.model),
       contacts_(static_cast<int>(search.contacts.size())),
+      steepness_(steepness),
       grid_(PlaceGrid::over(model_.pad_face, per_side)) {
   for (const SearchContact& contact : search.contacts) {
     weak_.push_back(weakened(contact, search.margin));
@@ -90,7 +91,7 @@ void WalkLattice::find_slopes(Node& node, Work& work) {
   if (pads.are_whole() && !whole_pads_) {
     whole_pads_ = pads;
     for (const Step& step : steps_) {
-      whole_drags_.emplace_back(model_, *whole_pads_, step.e);
+      whole_drags_.emplace_back(model_, *whole_pads_, step.e, steepness_);
     }
   }
   for (std::size_t s = 0; s < steps_.size(); ++s) {
@@ -103,7 +104,7 @@ void WalkLattice::find_slopes(Node& node, Work& work) {
     if (pads.are_whole()) {
       keep(whole_drags_[s]);
     } else {
-      DirectedDrag drag(model_, pads, steps_[s].e);
+      DirectedDrag drag(model_, pads, steps_[s].e, steepness_);
       keep(drag);
     }
   }
@@ -150,8 +151,8 @@ void WalkLattice::add_given(int from, int to, Work& work, std::vector<WalkEdge>&
   const Vec2 e = -way / length;
   const PadsAtPlace pads_from(model_, place(from));
   const PadsAtPlace pads_to(model_, place(to));
-  DirectedDrag drag_from(model_, pads_from, e);
-  DirectedDrag drag_to(model_, pads_to, e);
+  DirectedDrag drag_from(model_, pads_from, e, steepness_);
+  DirectedDrag drag_to(model_, pads_to, e, steepness_);
   for (int k = 0; k < contacts_; ++k) {
     add_edges(common(slopes_along(nodes_[from], k, drag_from),
                      slopes_along(nodes_[to], k, drag_to)),

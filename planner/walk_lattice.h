@@ -23,7 +23,7 @@ class WalkLattice {
   /// `per_side` nodes over the longer side of the object, the start, and the places of
   /// the goals. `search` must outlive the lattice.
   WalkLattice(const SearchModel& search, const FlatState& start, const GoalPlaces& goals,
-              int per_side);
+              int per_side, Steepness steepness);
   WalkLattice(const WalkLattice&) = delete;
   WalkLattice& operator=(const WalkLattice&) = delete;
 
@@ -64,6 +64,7 @@ class WalkLattice {
   const SearchModel& search_;
   const Model& model_;
   const int contacts_;
+  const Steepness steepness_;
   std::vector<StickContact> weak_;  // by contact
   PlaceGrid grid_;
   std::vector<Step> steps_;

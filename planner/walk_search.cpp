@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <queue>
 
 #include "planner/baselines.h"
@@ -21,10 +22,18 @@ constexpr std::array kNodesPerSide = {24, 48};
 
 constexpr int kMostStates = 20'000;  // nodes x contacts of a lattice
 
-constexpr double kMostTurn = 15.0;  // [rad] to either side that buckets tell apart
-constexpr int kBuckets = 400;
+/// Turns to either side [rad], and the buckets that tell them apart.
+constexpr double kFewTurns = 15.0;
+constexpr double kManyTurns = 150.0;
+constexpr int kBucketsOfFew = 400;
+constexpr int kBucketsOfMany = 2000;
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
 
 constexpr std::size_t kMostLabels = 400'000;
+
+/// Of the work that is left, for each lattice.
+constexpr double kShareOfWork = 0.3;
 
 /// As many labels are offered, and buckets compared, in the time of a stick test, about.
 constexpr int kEdgesPerTest = 8;
@@ -64,19 +73,23 @@ struct WalkEnd {
 class WalkSearch {
  public:
   WalkSearch(const SearchModel& search, WalkLattice& lattice, const FlatState& start,
-             const GoalPlaces& goals, const Limits& limits, Work& work)
+             const GoalPlaces& goals, WalkTurns turns, const Limits& limits, Work& work)
       : search_(search),
         lattice_(lattice),
         start_(start),
         goals_(goals),
         limits_(limits),
         work_(work),
-        c_(search.model->c) {
+        c_(search.model->c),
+        most_turn_(turns == WalkTurns::kFew ? kFewTurns : kManyTurns),
+        buckets_(turns == WalkTurns::kFew ? kBucketsOfFew : kBucketsOfMany),
+        is_number_(search.model->scene.goal &&
+                   search.model->scene.goal->theta_is == ThetaMeaning::kNumber) {
     const TurnWindow window = turns_from(search, start.theta);
-    window_ = {c_ * std::max(window.low, -kMostTurn),
-               c_ * std::min(window.high, kMostTurn)};
+    window_ = {c_ * std::max(window.low, -most_turn_),
+               c_ * std::min(window.high, most_turn_)};
     for (int node = 0; node < lattice.nodes(); ++node) rest_.push_back(least_rest(node));
-    bucket_costs_.resize(rest_.size() * kBuckets);
+    bucket_costs_.resize(rest_.size() * static_cast<std::size_t>(buckets_));
     bucket_labels_.resize(bucket_costs_.size());
   }
 
@@ -123,7 +136,12 @@ class WalkSearch {
       const double wanted = c_ * (goal.theta[i] - start_.theta);
       if (wanted >= label.lo && wanted <= label.hi) return goal.theta[i];
     }
-    return std::nullopt;
+    if (is_number_ || goal.count == 0) return std::nullopt;
+    const double theta = goal.theta[0];
+    const double low = start_.theta + label.lo / c_;
+    const double turned = theta + kTurn * std::ceil((low - theta) / kTurn);
+    if (turned > start_.theta + label.hi / c_) return std::nullopt;
+    return turned;
   }
 
   void expand(int index) {
@@ -143,14 +161,14 @@ class WalkSearch {
 
   std::pair<int, int> buckets_of(const Label& label) const {
     const auto bucket = [&](double c_theta) {
-      const double share = 0.5 * (c_theta / (c_ * kMostTurn) + 1.0);
-      return std::clamp(static_cast<int>(share * kBuckets), 0, kBuckets - 1);
+      const double share = 0.5 * (c_theta / (c_ * most_turn_) + 1.0);
+      return std::clamp(static_cast<int>(share * buckets_), 0, buckets_ - 1);
     };
     return {bucket(label.lo), bucket(label.hi)};
   }
 
   std::size_t first_bucket(const Label& label) const {
-    return static_cast<std::size_t>(label.node) * kBuckets;
+    return static_cast<std::size_t>(label.node) * static_cast<std::size_t>(buckets_);
   }
 
   bool is_alive(int index) const {
@@ -230,7 +248,10 @@ class WalkSearch {
   const GoalPlaces& goals_;
   const Limits& limits_;
   Work& work_;
-  const double c_;                   // [m]
+  const double c_;          // [m]
+  const double most_turn_;  // [rad]
+  const int buckets_;
+  const bool is_number_;             // the goal's angle: whole turns count
   TurnWindow window_;                // of c dtheta [m]
   std::vector<double> rest_;         // of the cost from each node, at least
   int buckets_compared_ = 0;         // and not yet counted as work
@@ -252,14 +273,21 @@ bool is_for_walks(const SearchModel& search) {
 
 std::optional<std::vector<Move>> search_walks(const SearchModel& search,
                                               const FlatState& start,
-                                              const GoalPlaces& goals,
+                                              const GoalPlaces& goals, WalkTurns turns,
                                               const Limits& limits, Work& work) {
   if (!is_for_walks(search)) return std::nullopt;
+  const Steepness steepness =
+      turns == WalkTurns::kFew ? Steepness::kUsual : Steepness::kSteep;
   for (const int per_side : kNodesPerSide) {
-    WalkLattice lattice(search, start, goals, per_side);
+    WalkLattice lattice(search, start, goals, per_side, steepness);
     const auto contacts = static_cast<int>(search.contacts.size());
     if (lattice.nodes() * contacts > kMostStates) break;
-    const auto moves = WalkSearch(search, lattice, start, goals, limits, work).run();
+    const std::int64_t whole = work.budget;
+    const auto left = static_cast<double>(whole - work.done());
+    work.budget = work.done() + static_cast<std::int64_t>(kShareOfWork * left);
+    const auto moves =
+        WalkSearch(search, lattice, start, goals, turns, limits, work).run();
+    work.budget = whole;
     if (moves) return shortened(search, joined_moves(search, *moves), limits, work);
   }
   return std::nullopt;

@@ -15,12 +15,19 @@
 
 namespace prehensile {
 
+/// How much a walk may turn the object.
+enum class WalkTurns {
+  kFew,   ///< by up to 15 rad either way, and no push by more than 10 rad per c of way
+  kMany,  ///< by up to 150 rad, and 40 rad per c: many more pushes are looked at
+};
+
 /// Pushes to one of the goals, shortened from the cheapest walk over the lattice; each
-/// sticks with the real pads. None among obstacles, for pads that need the
-/// mechanics in space, or if the lattice holds no walk or a limit is reached.
+/// sticks with the real pads. A goal that is an angle is met at any whole turn. None
+/// among obstacles, for pads that need the mechanics in space, or if the lattice holds no
+/// walk or a limit is reached.
 std::optional<std::vector<Move>> search_walks(const SearchModel& search,
                                               const FlatState& start,
-                                              const GoalPlaces& goals,
+                                              const GoalPlaces& goals, WalkTurns turns,
                                               const Limits& limits, Work& work);
 
 }  // namespace prehensile

@@ -1,5 +1,7 @@
 #include "planner/walk_search.h"
 
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 #include "planner/meet_end.h"
@@ -12,7 +14,7 @@
 namespace prehensile {
 namespace {
 
-using testing::kNoBudget;
+constexpr std::int64_t kBudget = 5'000'000;
 
 Scene random_scene(FixtureObject object, std::uint64_t index) {
   const FixtureRange range{.object = object, .goals = GoalsFrom::kRandom};
@@ -20,13 +22,13 @@ Scene random_scene(FixtureObject object, std::uint64_t index) {
 }
 
 std::optional<std::vector<Move>> walk_in(const SearchModel& search,
-                                         std::int64_t budget = kNoBudget) {
+                                         std::int64_t budget = kBudget) {
   const PlanOptions options;
   Work work{.budget = budget};
   const Limits limits(options, work);
   const FlatState start = flat_state(search.model->scene.start);
   const GoalPlaces goals = goal_places(*search.model, *search.model->scene.goal, start);
-  return search_walks(search, start, goals, limits, work);
+  return search_walks(search, start, goals, WalkTurns::kFew, limits, work);
 }
 
 /// Walks from the start to the goal by pushes that the exact mechanics does, too; the
@@ -63,6 +65,42 @@ TEST(WalkSearch, FindsLoopsWhereThePadsAreClipped) {
     EXPECT_EQ(plan.status, PlanStatus::kReachedGoal) << index;
     EXPECT_EQ(plan.planner, "push") << index;
   }
+}
+
+/// One wall, of which the object has to be turned by several whole turns.
+Scene scene_of_many_turns(std::uint64_t index) {
+  const FixtureRange range{
+      .object = FixtureObject::kConvex, .count = {1.0, 1.0}, .goals = GoalsFrom::kRandom};
+  return random_fixture(range, 1, index)->scene;
+}
+
+TEST(WalkSearch, MeetsAngleAtAnyWholeTurn) {
+  for (const std::uint64_t index : {7, 22, 39}) {
+    const Model model = prepare(scene_of_many_turns(index));
+    const Plan plan = plan_regrasp(model, {.margin = Margin::none()});
+    ASSERT_EQ(plan.status, PlanStatus::kReachedGoal) << index;
+    EXPECT_TRUE(reaches(*model.scene.goal, plan.goal)) << index;
+    EXPECT_GT(std::abs(plan.goal.X_HO.theta - plan.start.X_HO.theta),
+              3.0 * std::numbers::pi)
+        << index;
+  }
+}
+
+TEST(WalkSearch, MeetsANumberAtItself) {
+  int otherwise = 0;
+  for (std::uint64_t index = 0; index < 40; ++index) {
+    Scene scene = scene_of_many_turns(index);
+    const Model of_angle = prepare(scene);
+    const auto turned = walk_in(prepare_search(of_angle, Margin::none()));
+    scene.goal->theta_is = ThetaMeaning::kNumber;
+    const Model model = prepare(scene);
+    const auto moves = walk_in(prepare_search(model, Margin::none()));
+    if (moves) {
+      EXPECT_NEAR(moves->back().to.theta, *scene.goal->theta, 1e-9) << index;
+    }
+    otherwise += turned && !moves ? 1 : 0;
+  }
+  EXPECT_GE(otherwise, 1);
 }
 
 TEST(WalkSearch, KeepsToItsBudget) {

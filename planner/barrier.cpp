@@ -83,17 +83,23 @@ class WholePads {
 using Stopped = std::function<bool()>;
 using FreeAt = std::function<FreeDirections(const Vec2&)>;
 
+/// Where a straight piece of a way is judged. What sticks changes much between places
+/// where the face clips the pads.
+enum class Judged {
+  kWhereItBegins,
+  kAtBothEnds,  ///< as where it costs less: a long one leaps across what nothing crosses
+  kAllAlong,    ///< each of its parts as at its ends
+};
+
 /// What ways of the finger axis from the start cost: the part of them across what sticks.
 class CheatField {
  public:
-  /// `both_ends`: a piece of a way costs what it does where that is less, for what sticks
-  /// changes much between places; else what it does where it begins.
-  CheatField(const Model& model, int nodes_per_side, FreeAt free_at, bool both_ends,
+  CheatField(const Model& model, int nodes_per_side, FreeAt free_at, Judged judged,
              const Stopped& stopped)
       : stopped_(stopped),
         grid_(PlaceGrid::over(model.pad_face, nodes_per_side)),
         free_at_(std::move(free_at)),
-        both_ends_(both_ends),
+        judged_(judged),
         free_(static_cast<std::size_t>(grid_.count())) {
     for (int i = -kStride; i <= kStride; ++i) {
       for (int j = -kStride; j <= kStride; ++j) {
@@ -146,8 +152,12 @@ class CheatField {
         if (!grid_.has(i + step.i, j + step.j)) continue;
         const int next = grid_.index(i + step.i, j + step.j);
         if (value >= cost[next]) continue;
-        const double cheating = both_ends_ ? cheating_along(node, step, freely)
-                                           : free.cheating(step.angle, freely);
+        double cheating = free.cheating(step.angle, freely);
+        if (judged_ == Judged::kAllAlong) {
+          cheating = cheating_along(node, step, freely);
+        } else if (judged_ == Judged::kAtBothEnds && cheating > 0.0) {
+          cheating = std::min(cheating, free_of(next).cheating(step.angle, freely));
+        }
         offer(next, value + step.length * cheating);
       }
     }
@@ -198,7 +208,7 @@ class CheatField {
   const Stopped& stopped_;
   PlaceGrid grid_;
   FreeAt free_at_;
-  bool both_ends_;
+  Judged judged_;
   std::vector<Step> steps_;
   std::vector<std::optional<FreeDirections>> free_;  // of nodes looked at
 };
@@ -239,8 +249,8 @@ Loops barrier_of_whole_pads(const Model& model, const Stopped& stopped) {
   const WholePads pads(model);
   for (const int nodes : kNodesPerSide) {
     CheatField field(
-        model, nodes, [&](const Vec2& place) { return pads.free_at(place); }, false,
-        stopped);
+        model, nodes, [&](const Vec2& place) { return pads.free_at(place); },
+        Judged::kWhereItBegins, stopped);
     for (const double freely : kFreely) {
       Shown shown = shown_by(model, field, freely);
       if (!shown.barrier.empty()) return shown.barrier;
@@ -251,22 +261,24 @@ Loops barrier_of_whole_pads(const Model& model, const Stopped& stopped) {
 
 Loops barrier_of_clipped_discs(const Model& model, const Stopped& stopped) {
   PlaceSlacks slacks(model);
-  for (const int nodes : kNodesPerSideWhereClipped) {
-    bool any_separates = false;
-    for (const double allowed : kAllowed) {
-      CheatField field(
-          model, nodes,
-          [&](const Vec2& place) {
-            return FreeDirections::above(slacks.at(place), -allowed);
-          },
-          true, stopped);
-      for (const double freely : kFreelyWhereClipped) {
-        Shown shown = shown_by(model, field, freely);
-        if (!shown.barrier.empty()) return shown.barrier;
-        any_separates = any_separates || shown.separates;
+  for (const Judged judged : {Judged::kAtBothEnds, Judged::kAllAlong}) {
+    for (const int nodes : kNodesPerSideWhereClipped) {
+      bool any_separates = false;
+      for (const double allowed : kAllowed) {
+        CheatField field(
+            model, nodes,
+            [&](const Vec2& place) {
+              return FreeDirections::above(slacks.at(place), -allowed);
+            },
+            judged, stopped);
+        for (const double freely : kFreelyWhereClipped) {
+          Shown shown = shown_by(model, field, freely);
+          if (!shown.barrier.empty()) return shown.barrier;
+          any_separates = any_separates || shown.separates;
+        }
       }
+      if (!any_separates) break;
     }
-    if (!any_separates) break;
   }
   return {};
 }

@@ -60,15 +60,11 @@ std::vector<Move> moves_of(const SearchModel& search, const FlatState& start,
   return moves;
 }
 
-/// Which places a search goes to: those of the goal, or others within its tolerances.
-enum class GoalPart { kItself, kBeside };
-
 /// The stages that know the pads themselves: they cost more, and find what the ellipsoid
-/// hides. `best`: the plan so far, to be improved. Beside the goal walks turn the object
-/// by as much as it takes at once.
+/// hides. `best`: the plan so far, to be improved.
 bool plan_with_real_pads(const SearchModel& search, const FlatState& from,
                          const GoalPlaces& goals, std::optional<FoundChain> best,
-                         GoalPart part, const Limits& limits, Work& work, Plan& plan) {
+                         const Limits& limits, Work& work, Plan& plan) {
   const bool flat = !can_roll(search.model->scene.object);
   std::optional<PadEnvelope> envelope;
   if (flat) envelope.emplace(*search.model, search.margin);
@@ -90,10 +86,7 @@ bool plan_with_real_pads(const SearchModel& search, const FlatState& from,
     append_chain(search, from, best->chain, plan);
     return true;
   }
-  if (!moves && part == GoalPart::kItself) {
-    moves = search_walks(search, from, goals, WalkTurns::kFew, limits, work);
-  }
-  if (!moves) moves = search_walks(search, from, goals, WalkTurns::kMany, limits, work);
+  if (!moves) moves = search_walks(search, from, goals, WalkTurns::kFew, limits, work);
   if (!moves) return false;
   for (const Move& move : *moves) append_move(search, move, plan);
   return true;
@@ -140,8 +133,7 @@ bool plan_in_plane(const SearchModel& search, const Grasp& start, const Goal& go
     append_chain(search, from, found->chain, plan);
     return true;
   }
-  return plan_with_real_pads(search, from, goals, found, GoalPart::kItself, limits, work,
-                             plan);
+  return plan_with_real_pads(search, from, goals, found, limits, work, plan);
 }
 
 /// The stages of more than two pushes once more, to places that are off the goal by up to
@@ -153,8 +145,26 @@ bool plan_beside_goal(const SearchModel& search, const Grasp& start, const Goal&
   if (places.count == 0) return false;
   const double bound = guide_bound(*search.model, start, goal);
   const auto found = search_chains(search, from, places, bound, limits, work);
-  return plan_with_real_pads(search, from, places, found, GoalPart::kBeside, limits, work,
-                             plan);
+  return plan_with_real_pads(search, from, places, found, limits, work, plan);
+}
+
+/// Walks that wind the object up: to the goal with half of the work, then beside it.
+bool plan_by_many_turns(const SearchModel& search, const Grasp& start, const Goal& goal,
+                        const Limits& limits, Work& work, Plan& plan) {
+  const FlatState from = flat_state(start);
+  const auto walk_to = [&](const GoalPlaces& places, std::int64_t budget) {
+    const std::int64_t whole = work.budget;
+    work.budget = work.done() + budget;
+    const auto moves = search_walks(search, from, places, WalkTurns::kMany, limits, work);
+    work.budget = whole;
+    if (!moves) return false;
+    for (const Move& move : *moves) append_move(search, move, plan);
+    return true;
+  };
+  const std::int64_t left = work.budget - work.done();
+  if (walk_to(goal_places(*search.model, goal, from), left / 2)) return true;
+  const GoalPlaces beside = tolerated_places(*search.model, goal, from);
+  return beside.count > 0 && walk_to(beside, work.budget - work.done());
 }
 
 /// A baseline with work of its own.
@@ -182,8 +192,12 @@ void say_undecided(const Limits& limits, Plan& plan) {
             "smaller margin may admit one";
 }
 
-/// The exact stages with their share of the budget, then the fallback with its own, and
-/// with what is left the places beside a goal that no way leads to.
+/// Of the budget, for walks of many turns.
+constexpr double kShareOfManyTurns = 0.1;
+
+/// The exact stages with their share of the budget, then the fallback with its own, with
+/// what is left the places beside a goal that no way leads to, and then walks of many
+/// turns with theirs.
 bool plan_in_shares(const SearchModel& search, const Grasp& start, const Goal& goal,
                     const PlanOptions& options, Work& work, Plan& plan) {
   const Limits limits(options, work);
@@ -191,9 +205,13 @@ bool plan_in_shares(const SearchModel& search, const Grasp& start, const Goal& g
       *find_planner(kOwnPlanner), options.settings,
       search.model->scene.obstacles ? "fallback_share_obstacles" : "fallback_share");
   const std::int64_t whole = work.budget;
-  const std::int64_t left = whole - work.done();
-  const auto of_fallback = static_cast<std::int64_t>(share * static_cast<double>(left));
-  work.budget -= of_fallback;
+  const auto share_of_left = [&](double part) {
+    return static_cast<std::int64_t>(part * static_cast<double>(whole - work.done()));
+  };
+  const std::int64_t of_fallback = share_of_left(share);
+  const std::int64_t of_turns =
+      search.model->scene.obstacles ? 0 : share_of_left(kShareOfManyTurns);
+  work.budget = whole - of_fallback - of_turns;
   const bool exact = plan_in_plane(search, start, goal, limits, work, plan);
   work.budget = whole;
   if (exact || limits.reached() || search.contacts.empty()) return exact;
@@ -201,7 +219,12 @@ bool plan_in_shares(const SearchModel& search, const Grasp& start, const Goal& g
     return true;
   }
   if (work.meter) work.meter->enter("beside the goal");
-  return plan_beside_goal(search, start, goal, limits, work, plan);
+  work.budget = whole - of_turns;
+  const bool beside = plan_beside_goal(search, start, goal, limits, work, plan);
+  work.budget = whole;
+  if (beside) return true;
+  if (work.meter) work.meter->enter("many turns");
+  return plan_by_many_turns(search, start, goal, limits, work, plan);
 }
 
 bool rolls_on_way(const SearchModel& search, Plan plan, double dpsi,

@@ -32,12 +32,9 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 
 constexpr std::size_t kMostLabels = 400'000;
 
-/// Of the work that is left, for each lattice.
-constexpr double kShareOfWork = 0.3;
-
 /// As many labels are offered, and buckets compared, in the time of a stick test, about.
-constexpr int kEdgesPerTest = 8;
-constexpr int kBucketsPerTest = 100;
+constexpr int kEdgesPerTest = 16;
+constexpr int kBucketsPerTest = 400;
 
 /// Walks of which some push turns out not to stick; its edge is cut, and another walk
 /// looked for.
@@ -282,12 +279,8 @@ std::optional<std::vector<Move>> search_walks(const SearchModel& search,
     WalkLattice lattice(search, start, goals, per_side, steepness);
     const auto contacts = static_cast<int>(search.contacts.size());
     if (lattice.nodes() * contacts > kMostStates) break;
-    const std::int64_t whole = work.budget;
-    const auto left = static_cast<double>(whole - work.done());
-    work.budget = work.done() + static_cast<std::int64_t>(kShareOfWork * left);
     const auto moves =
         WalkSearch(search, lattice, start, goals, turns, limits, work).run();
-    work.budget = whole;
     if (moves) return shortened(search, joined_moves(search, *moves), limits, work);
   }
   return std::nullopt;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <polyclipping/clipper.hpp>
 
+#include "scene/segment_distance.h"
+
 namespace prehensile::internal {
 namespace {
 
@@ -149,14 +151,6 @@ std::vector<Vec2> PlaneRegion::largest_border() const {
 
 namespace {
 
-double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
-  const Vec2 d = b - a;
-  const double length_squared = d.squaredNorm();
-  const double s =
-      length_squared > 0.0 ? std::clamp((p - a).dot(d) / length_squared, 0.0, 1.0) : 0.0;
-  return (p - a - s * d).norm();
-}
-
 /// Marks the vertices between `first` and `last` that have to stay.
 void keep_between(const std::vector<Vec2>& ring, std::size_t first, std::size_t last,
                   double tolerance, std::vector<bool>& keep) {
@@ -168,8 +162,8 @@ void keep_between(const std::vector<Vec2>& ring, std::size_t first, std::size_t 
     double most = tolerance;
     std::size_t farthest = from;
     for (std::size_t i = from + 1; i < to; ++i) {
-      const double distance =
-          distance_to_segment(ring[i % n], ring[from % n], ring[to % n]);
+      const double distance = std::sqrt(
+          squared_distance_to_segment(ring[i % n], ring[from % n], ring[to % n]));
       if (distance <= most) continue;
       most = distance;
       farthest = i;

@@ -94,12 +94,11 @@ enum class Judged {
 /// What ways of the finger axis from the start cost: the part of them across what sticks.
 class CheatField {
  public:
-  CheatField(const Model& model, int nodes_per_side, FreeAt free_at, Judged judged,
+  CheatField(const Model& model, int nodes_per_side, FreeAt free_at,
              const Stopped& stopped)
       : stopped_(stopped),
         grid_(PlaceGrid::over(model.pad_face, nodes_per_side)),
         free_at_(std::move(free_at)),
-        judged_(judged),
         free_(static_cast<std::size_t>(grid_.count())) {
     for (int i = -kStride; i <= kStride; ++i) {
       for (int j = -kStride; j <= kStride; ++j) {
@@ -115,7 +114,7 @@ class CheatField {
   /// The cost at each node, as far as it is below that of the goal, which receives the
   /// least of its places: the rest keep that. `of_goal` is infinite if it was stopped.
   std::vector<double> costs(const Vec2& start, const std::vector<Vec2>& goals,
-                            double freely, double* of_goal) {
+                            Judged judged, double freely, double* of_goal) {
     std::vector<double> cost(grid_.count(), kInfinity);
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
     const auto offer = [&](int node, double value) {
@@ -152,13 +151,7 @@ class CheatField {
         if (!grid_.has(i + step.i, j + step.j)) continue;
         const int next = grid_.index(i + step.i, j + step.j);
         if (value >= cost[next]) continue;
-        double cheating = free.cheating(step.angle, freely);
-        if (judged_ == Judged::kAllAlong) {
-          cheating = cheating_along(node, step, freely);
-        } else if (judged_ == Judged::kAtBothEnds && cheating > 0.0) {
-          cheating = std::min(cheating, free_of(next).cheating(step.angle, freely));
-        }
-        offer(next, value + step.length * cheating);
+        offer(next, value + step.length * cheating_of(node, next, step, judged, freely));
       }
     }
     for (double& value : cost) value = std::min(value, *of_goal);
@@ -177,6 +170,14 @@ class CheatField {
     int i, j;
     double length, angle;  // [m], [rad]
   };
+
+  /// The share of a step that leaves what sticks.
+  double cheating_of(int node, int next, const Step& step, Judged judged, double freely) {
+    if (judged == Judged::kAllAlong) return cheating_along(node, step, freely);
+    const double cheating = free_of(node).cheating(step.angle, freely);
+    if (judged == Judged::kWhereItBegins || cheating == 0.0) return cheating;
+    return std::min(cheating, free_of(next).cheating(step.angle, freely));
+  }
 
   /// The mean along a step, of each part what it is at the end where that is less.
   double cheating_along(int node, const Step& step, double freely) {
@@ -208,7 +209,6 @@ class CheatField {
   const Stopped& stopped_;
   PlaceGrid grid_;
   FreeAt free_at_;
-  Judged judged_;
   std::vector<Step> steps_;
   std::vector<std::optional<FreeDirections>> free_;  // of nodes looked at
 };
@@ -231,12 +231,12 @@ struct Shown {
   Loops barrier;           ///< a level that is one
 };
 
-Shown shown_by(const Model& model, CheatField& field, double freely) {
+Shown shown_by(const Model& model, CheatField& field, Judged judged, double freely) {
   const double spacing = field.grid().spacing;
   const Vec2 start = finger_in_object(model.scene.start.X_HO);
   const std::vector<Vec2> goals = places_of(*model.scene.goal, 0.25 * spacing);
   double of_goal = 0.0;
-  const std::vector<double> cost = field.costs(start, goals, freely, &of_goal);
+  const std::vector<double> cost = field.costs(start, goals, judged, freely, &of_goal);
   if (!(of_goal > kLeastValue * spacing) || of_goal == kInfinity) return {};
   for (const double share : kLevels) {
     Loops region = loops_below(field.grid(), cost, share * of_goal, 0.1 * spacing);
@@ -249,10 +249,9 @@ Loops barrier_of_whole_pads(const Model& model, const Stopped& stopped) {
   const WholePads pads(model);
   for (const int nodes : kNodesPerSide) {
     CheatField field(
-        model, nodes, [&](const Vec2& place) { return pads.free_at(place); },
-        Judged::kWhereItBegins, stopped);
+        model, nodes, [&](const Vec2& place) { return pads.free_at(place); }, stopped);
     for (const double freely : kFreely) {
-      Shown shown = shown_by(model, field, freely);
+      Shown shown = shown_by(model, field, Judged::kWhereItBegins, freely);
       if (!shown.barrier.empty()) return shown.barrier;
     }
   }
@@ -261,24 +260,24 @@ Loops barrier_of_whole_pads(const Model& model, const Stopped& stopped) {
 
 Loops barrier_of_clipped_discs(const Model& model, const Stopped& stopped) {
   PlaceSlacks slacks(model);
-  for (const Judged judged : {Judged::kAtBothEnds, Judged::kAllAlong}) {
-    for (const int nodes : kNodesPerSideWhereClipped) {
-      bool any_separates = false;
-      for (const double allowed : kAllowed) {
-        CheatField field(
-            model, nodes,
-            [&](const Vec2& place) {
-              return FreeDirections::above(slacks.at(place), -allowed);
-            },
-            judged, stopped);
+  for (const int nodes : kNodesPerSideWhereClipped) {
+    bool any_separates = false;
+    for (const double allowed : kAllowed) {
+      CheatField field(
+          model, nodes,
+          [&](const Vec2& place) {
+            return FreeDirections::above(slacks.at(place), -allowed);
+          },
+          stopped);
+      for (const Judged judged : {Judged::kAtBothEnds, Judged::kAllAlong}) {
         for (const double freely : kFreelyWhereClipped) {
-          Shown shown = shown_by(model, field, freely);
+          Shown shown = shown_by(model, field, judged, freely);
           if (!shown.barrier.empty()) return shown.barrier;
           any_separates = any_separates || shown.separates;
         }
       }
-      if (!any_separates) break;
     }
+    if (!any_separates) break;
   }
   return {};
 }

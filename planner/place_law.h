@@ -45,7 +45,7 @@ class PadsAtPlace {
 /// The kappas that are looked at.
 enum class Steepness {
   kUsual,  ///< up to 10
-  kSteep,  ///< up to 40, at more places
+  kSteep,  ///< up to 40; of clipped pads more are looked at
 };
 
 /// Friction of such pads over F, and over F c, for motions in one direction: found where

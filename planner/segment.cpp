@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "scene/outline.h"
+#include "scene/segment_distance.h"
 
 namespace prehensile {
 namespace {
@@ -37,14 +39,6 @@ Cuts cuts_of(const std::vector<Vec2>& outline, const Vec2& p, const Vec2& q) {
   return cuts;
 }
 
-double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
-  const Vec2 d = b - a;
-  const double squared = d.squaredNorm();
-  const double share =
-      squared > 0.0 ? std::clamp((p - a).dot(d) / squared, 0.0, 1.0) : 0.0;
-  return (p - a - share * d).norm();
-}
-
 }  // namespace
 
 bool segment_inside(const std::vector<Vec2>& outline, const Vec2& p,
@@ -67,14 +61,15 @@ bool segment_inside(const std::vector<Vec2>& outline, const Vec2& p,
 
 double distance_to_border(const std::vector<Vec2>& outline, const Vec2& p,
                           const Vec2& q) noexcept {
-  double least = std::numeric_limits<double>::infinity();
+  double squared = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const Vec2& a = outline[i];
     const Vec2& b = outline[(i + 1) % outline.size()];
-    least = std::min({least, distance_to_segment(a, p, q), distance_to_segment(b, p, q),
-                      distance_to_segment(p, a, b), distance_to_segment(q, a, b)});
+    squared = std::min({squared, squared_distance_to_segment(a, p, q),
+                        squared_distance_to_segment(p, a, b),
+                        squared_distance_to_segment(q, a, b)});
   }
-  return least;
+  return std::sqrt(squared);
 }
 
 Extent extent_across(const std::vector<Vec2>& outline, const Vec2& along,

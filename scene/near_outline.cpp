@@ -5,14 +5,9 @@
 #include <limits>
 
 #include "scene/outline.h"
+#include "scene/segment_distance.h"
 
 namespace prehensile {
-double squared_distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
-  const Vec2 d = b - a;
-  const double s = std::clamp((p - a).dot(d) / d.squaredNorm(), 0.0, 1.0);
-  return (p - a - s * d).squaredNorm();
-}
-
 bool is_inside(const std::vector<Vec2>& outline, const Vec2& p) {
   bool inside = false;
   for (std::size_t i = 0, before = outline.size() - 1; i < outline.size(); before = i++) {

@@ -10,9 +10,6 @@
 
 namespace prehensile {
 
-/// Of p from the segment a, b [m^2].
-double squared_distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b);
-
 /// By crossings of a ray; either, on the border.
 bool is_inside(const std::vector<Vec2>& outline, const Vec2& p);
 

@@ -6,6 +6,7 @@
 
 #include "scene/lying_prism.h"
 #include "scene/near_outline.h"
+#include "scene/segment_distance.h"
 
 namespace prehensile {
 namespace {

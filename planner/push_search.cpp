@@ -5,10 +5,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "planner/bounds.h"
 #include "planner/catalogue.h"
 #include "planner/chain_search.h"
+#include "planner/cheapen.h"
 #include "planner/confines.h"
 #include "planner/fallback.h"
 #include "planner/fan_search.h"
@@ -60,11 +62,13 @@ std::vector<Move> moves_of(const SearchModel& search, const FlatState& start,
   return moves;
 }
 
-/// The stages that know the pads themselves: they cost more, and find what the ellipsoid
-/// hides. `best`: the plan so far, to be improved.
-bool plan_with_real_pads(const SearchModel& search, const FlatState& from,
-                         const GoalPlaces& goals, std::optional<FoundChain> best,
-                         const Limits& limits, Work& work, Plan& plan) {
+/// Chains and fans of the stages that know the pads themselves. `best`: the plan so far,
+/// to be improved.
+std::optional<std::vector<Move>> search_with_real_pads(const SearchModel& search,
+                                                       const FlatState& from,
+                                                       const GoalPlaces& goals,
+                                                       std::optional<FoundChain> best,
+                                                       const Limits& limits, Work& work) {
   const bool flat = !can_roll(search.model->scene.object);
   std::optional<PadEnvelope> envelope;
   if (flat) envelope.emplace(*search.model, search.margin);
@@ -77,17 +81,31 @@ bool plan_with_real_pads(const SearchModel& search, const FlatState& from,
                          : moves ? cost_of(search, *moves)
                                  : kInfinity;
   if (moves && work.meter) work.meter->found(to_beat);
-  if (limits.improves() || (!best && !search.exact_everywhere)) {
+  const bool is_dear = best && to_beat >= kDear;
+  if (limits.improves() || is_dear || (!best && !search.exact_everywhere)) {
     const auto found =
         search_long_chains(search, from, goals, pads, to_beat, limits, work);
     if (found) best = found;
   }
-  if (best) {
-    append_chain(search, from, best->chain, plan);
-    return true;
+  if (best) moves = moves_of(search, from, best->chain);
+  return moves;
+}
+
+/// The stages that cost more, and find what the ellipsoid hides; what they find is made
+/// cheaper where it is dear. `best`: the plan so far, to be improved.
+bool plan_with_real_pads(const SearchModel& search, const FlatState& from,
+                         const GoalPlaces& goals, std::optional<FoundChain> best,
+                         const Limits& limits, Work& work, Plan& plan) {
+  auto moves = search_with_real_pads(search, from, goals, std::move(best), limits, work);
+  const bool is_walk = !moves;
+  if (is_walk) {
+    moves = search_walks(search, from, goals, WalkTurns::kFew, kInfinity, limits, work);
   }
-  if (!moves) moves = search_walks(search, from, goals, WalkTurns::kFew, limits, work);
   if (!moves) return false;
+  moves = cheaper_by_pairs(search, std::move(*moves), limits, work);
+  if (!is_walk) {
+    moves = cheaper_by_walk(search, from, goals, std::move(*moves), limits, work);
+  }
   for (const Move& move : *moves) append_move(search, move, plan);
   return true;
 }
@@ -129,7 +147,8 @@ bool plan_in_plane(const SearchModel& search, const Grasp& start, const Goal& go
       return true;
     }
   }
-  if (found && !(limits.improves() && found->chain.cost > kGoodEnough * bound)) {
+  const double enough = limits.improves() ? kGoodEnough * bound : kDear;
+  if (found && found->chain.cost <= enough) {
     append_chain(search, from, found->chain, plan);
     return true;
   }
@@ -155,10 +174,12 @@ bool plan_by_many_turns(const SearchModel& search, const Grasp& start, const Goa
   const auto walk_to = [&](const GoalPlaces& places, std::int64_t budget) {
     const std::int64_t whole = work.budget;
     work.budget = work.done() + budget;
-    const auto moves = search_walks(search, from, places, WalkTurns::kMany, limits, work);
+    const auto moves =
+        search_walks(search, from, places, WalkTurns::kMany, kInfinity, limits, work);
     work.budget = whole;
     if (!moves) return false;
-    for (const Move& move : *moves) append_move(search, move, plan);
+    const auto cheaper = cheaper_by_pairs(search, *moves, limits, work);
+    for (const Move& move : cheaper) append_move(search, move, plan);
     return true;
   };
   const std::int64_t left = work.budget - work.done();
@@ -169,12 +190,13 @@ bool plan_by_many_turns(const SearchModel& search, const Grasp& start, const Goa
 
 /// A baseline with work of its own.
 bool plan_by_fallback(const SearchModel& search, const Grasp& start, const Goal& goal,
-                      const PlanOptions& options, std::int64_t budget, Work& work,
-                      Plan& plan) {
+                      const PlanOptions& options, const Limits& limits,
+                      std::int64_t budget, Work& work, Plan& plan) {
   if (budget <= 0) return false;
   if (work.meter) work.meter->enter("fallback");
-  const auto moves = fall_back(search, start, goal, options, budget, work);
+  auto moves = fall_back(search, start, goal, options, budget, work);
   if (!moves) return false;
+  moves = cheaper_by_pairs(search, std::move(*moves), limits, work);
   for (const Move& move : *moves) append_move(search, move, plan);
   plan.planner += std::string("+") + kFallbackPlanner;
   return true;
@@ -215,7 +237,7 @@ bool plan_in_shares(const SearchModel& search, const Grasp& start, const Goal& g
   const bool exact = plan_in_plane(search, start, goal, limits, work, plan);
   work.budget = whole;
   if (exact || limits.reached() || search.contacts.empty()) return exact;
-  if (plan_by_fallback(search, start, goal, options, of_fallback, work, plan)) {
+  if (plan_by_fallback(search, start, goal, options, limits, of_fallback, work, plan)) {
     return true;
   }
   if (work.meter) work.meter->enter("beside the goal");

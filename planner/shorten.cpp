@@ -12,8 +12,16 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr double kFewerPushes = 1e-9;  // of two ways that cost the same, the one of fewer
-constexpr std::size_t kMostMovesForCrossings = 40;
 constexpr std::size_t kWidestSingle = 120;  // moves that one push may replace
+constexpr std::size_t kWidestPair = 200;    // and two pushes
+
+/// Of sequences up to so long every part is tried; of longer ones parts of lengths that
+/// grow by a quarter; and of still longer ones few.
+constexpr std::size_t kFewMoves = 40;
+constexpr std::size_t kSomeMoves = 120;
+
+/// Relative gain for which a sequence is gone through again.
+constexpr double kWorthAnother = 1e-3;
 
 using Moves = std::vector<Move>;
 
@@ -118,31 +126,89 @@ Moves moves_of(const SearchModel& search, const Chain& chain, const FlatState& f
   return moves;
 }
 
-std::optional<Moves> two_pushes(const SearchModel& search, const FlatState& from,
-                                const FlatState& to, const Limits& limits, Work& work) {
+using ChainFinder = std::optional<FoundChain> (*)(const SearchModel&, const FlatState&,
+                                                  const GoalPlaces&, const Limits&,
+                                                  Work&);
+
+std::optional<FoundChain> search_nodes(const SearchModel& search, const FlatState& start,
+                                       const GoalPlaces& goals, const Limits& limits,
+                                       Work& work) {
+  constexpr double kNoBound = 0.0;
+  return search_chains(search, start, goals, kNoBound, limits, work);
+}
+
+std::optional<Moves> two_pushes(ChainFinder find, const SearchModel& search,
+                                const FlatState& from, const FlatState& to,
+                                const Limits& limits, Work& work) {
   GoalPlaces goal;
   goal.count = 1;
   goal.places[0] = {.p_OF = to.p_OF, .count = 1, .theta = {to.theta}};
-  const auto found = search_crossings(search, from, goal, limits, work);
+  const auto found = find(search, from, goal, limits, work);
   if (!found) return std::nullopt;
   Moves moves = moves_of(search, found->chain, from);
   moves.back().to = to;
   return moves;
 }
 
-Moves by_two_pushes(const SearchModel& search, const Moves& moves, const Limits& limits,
-                    Work& work) {
+/// The cheapest way by parts of all lengths.
+Moves by_any_two_pushes(ChainFinder find, const SearchModel& search, const Moves& moves,
+                        const Limits& limits, Work& work) {
+  const bool few = moves.size() <= kFewMoves;
+  const auto next = [few](std::size_t count) {
+    return few ? count + 1 : count + count / 4 + 1;
+  };
   Shortcut shortcut(search, moves);
   for (std::size_t i = 0; i < moves.size(); ++i) {
     shortcut.offer(i, i + 1, {moves[i]});
-    for (std::size_t j = i + 3; j < shortcut.states(); ++j) {
+    for (std::size_t count = 3; i + count <= moves.size(); count = next(count)) {
       if (limits.reached()) break;
+      const std::size_t j = i + count;
       const auto pushes =
-          two_pushes(search, shortcut.state(i), shortcut.state(j), limits, work);
+          two_pushes(find, search, shortcut.state(i), shortcut.state(j), limits, work);
       if (pushes) shortcut.offer(i, j, *pushes);
     }
   }
   return shortcut.best();
+}
+
+/// From the start on, the longest part that two pushes can replace, then on from its end.
+Moves by_far_two_pushes(ChainFinder find, const SearchModel& search, const Moves& moves,
+                        const Limits& limits, Work& work) {
+  Moves shorter;
+  const auto is_replaced = [&](std::size_t i, std::size_t count) {
+    const Moves part(moves.begin() + i, moves.begin() + i + count);
+    const auto pushes =
+        two_pushes(find, search, part.front().from, part.back().to, limits, work);
+    if (!pushes || cost_of(search, *pushes) >= cost_of(search, part)) return false;
+    shorter.insert(shorter.end(), pushes->begin(), pushes->end());
+    return true;
+  };
+  for (std::size_t i = 0; i < moves.size();) {
+    std::size_t count = std::min(kWidestPair, moves.size() - i);
+    while (count > 2 && !limits.reached() && !is_replaced(i, count)) {
+      count = count * 2 / 3;
+    }
+    if (count <= 2 || limits.reached()) {
+      count = 1;
+      shorter.push_back(moves[i]);
+    }
+    i += count;
+  }
+  return shorter;
+}
+
+/// Goes through a sequence for as long as that makes it cheaper.
+Moves by_two_pushes(ChainFinder find, const SearchModel& search, Moves moves,
+                    const Limits& limits, Work& work) {
+  double before = kFar;
+  for (double cost = cost_of(search, moves);
+       cost < before * (1.0 - kWorthAnother) && moves.size() > 2 && !limits.reached();) {
+    before = cost;
+    const auto pass = moves.size() > kSomeMoves ? by_far_two_pushes : by_any_two_pushes;
+    moves = pass(find, search, moves, limits, work);
+    cost = cost_of(search, moves);
+  }
+  return moves;
 }
 
 }  // namespace
@@ -159,14 +225,15 @@ double cost_of(const SearchModel& search, const std::vector<Move>& moves) {
 
 std::vector<Move> shortened(const SearchModel& search, const std::vector<Move>& moves,
                             const Limits& limits, Work& work) {
-  Moves shorter = by_single_pushes(search, moves, limits, work);
-  for (std::size_t before = shorter.size() + 1;
-       shorter.size() < before && shorter.size() > 2 &&
-       shorter.size() <= kMostMovesForCrossings && !limits.reached();) {
-    before = shorter.size();
-    shorter = by_two_pushes(search, shorter, limits, work);
-  }
-  return shorter;
+  return by_two_pushes(&search_crossings, search,
+                       by_single_pushes(search, moves, limits, work), limits, work);
+}
+
+std::vector<Move> shortened_over_lattice(const SearchModel& search,
+                                         const std::vector<Move>& moves,
+                                         const Limits& limits, Work& work) {
+  return by_two_pushes(&search_nodes, search,
+                       by_single_pushes(search, moves, limits, work), limits, work);
 }
 
 }  // namespace prehensile

@@ -70,11 +70,13 @@ struct WalkEnd {
 class WalkSearch {
  public:
   WalkSearch(const SearchModel& search, WalkLattice& lattice, const FlatState& start,
-             const GoalPlaces& goals, WalkTurns turns, const Limits& limits, Work& work)
+             const GoalPlaces& goals, WalkTurns turns, double to_beat,
+             const Limits& limits, Work& work)
       : search_(search),
         lattice_(lattice),
         start_(start),
         goals_(goals),
+        to_beat_(to_beat),
         limits_(limits),
         work_(work),
         c_(search.model->c),
@@ -177,6 +179,7 @@ class WalkSearch {
 
   /// Keeps the label if it is the cheapest for some bucket of its angles.
   void offer(const Label& label) {
+    if (label.cost + rest_[label.node] >= to_beat_) return;
     const auto [low, high] = buckets_of(label);
     const std::size_t first = first_bucket(label);
     buckets_compared_ += 1 + high - low;
@@ -243,6 +246,7 @@ class WalkSearch {
   WalkLattice& lattice_;
   const FlatState start_;
   const GoalPlaces& goals_;
+  const double to_beat_;
   const Limits& limits_;
   Work& work_;
   const double c_;          // [m]
@@ -271,7 +275,8 @@ bool is_for_walks(const SearchModel& search) {
 std::optional<std::vector<Move>> search_walks(const SearchModel& search,
                                               const FlatState& start,
                                               const GoalPlaces& goals, WalkTurns turns,
-                                              const Limits& limits, Work& work) {
+                                              double to_beat, const Limits& limits,
+                                              Work& work) {
   if (!is_for_walks(search)) return std::nullopt;
   const Steepness steepness =
       turns == WalkTurns::kFew ? Steepness::kUsual : Steepness::kSteep;
@@ -280,7 +285,7 @@ std::optional<std::vector<Move>> search_walks(const SearchModel& search,
     const auto contacts = static_cast<int>(search.contacts.size());
     if (lattice.nodes() * contacts > kMostStates) break;
     const auto moves =
-        WalkSearch(search, lattice, start, goals, turns, limits, work).run();
+        WalkSearch(search, lattice, start, goals, turns, to_beat, limits, work).run();
     if (moves) return shortened(search, joined_moves(search, *moves), limits, work);
   }
   return std::nullopt;

@@ -24,10 +24,11 @@ enum class WalkTurns {
 /// Pushes to one of the goals, shortened from the cheapest walk over the lattice; each
 /// sticks with the real pads. A goal that is an angle is met at any whole turn. None
 /// among obstacles, for pads that need the mechanics in space, or if the lattice holds no
-/// walk or a limit is reached.
+/// walk cheaper than `to_beat` (infinity: any) or a limit is reached.
 std::optional<std::vector<Move>> search_walks(const SearchModel& search,
                                               const FlatState& start,
                                               const GoalPlaces& goals, WalkTurns turns,
-                                              const Limits& limits, Work& work);
+                                              double to_beat, const Limits& limits,
+                                              Work& work);
 
 }  // namespace prehensile

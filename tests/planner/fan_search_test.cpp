@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "planner/chain.h"
-#include "planner/shorten.h"
 #include "tests/planner/planner_cases.h"
 
 namespace prehensile {
@@ -75,28 +74,6 @@ TEST(FanSearch, EndsAtTheBudget) {
   EXPECT_FALSE(search_fan(search, envelope, start, goal_places(model, *scene.goal, start),
                           limits, work));
   EXPECT_LE(work.stick_tests, 60'000);
-}
-
-TEST(Shorten, NeverCostsMoreAndKeepsTheEnds) {
-  const Scene scene = random_among_walls(true, RegraspRange::kWide, false, 3, 1);
-  const Model model = prepare(scene);
-  const SearchModel search = prepare_search(model, Margin::none());
-  Work work{.budget = kNoBudget};
-  const PlanOptions options;
-  const Limits limits(options, work);
-  // Away from the wall in small steps of one contact, which one push can do.
-  std::vector<Move> moves;
-  const Vec2 n = search.contacts[0].stick.n;
-  for (int k = 0; k < 10; ++k) {
-    const Vec2 from = -1e-3 * k * n;
-    moves.push_back({0, {from, 0.0}, {from - 1e-3 * n, 0.0}});
-    ASSERT_TRUE(move_passes(search, moves.back(), work));
-  }
-  const std::vector<Move> shorter = shortened(search, moves, limits, work);
-  ASSERT_EQ(shorter.size(), 1u);
-  EXPECT_EQ(shorter.front().from.p_OF, moves.front().from.p_OF);
-  EXPECT_EQ(shorter.back().to.p_OF, moves.back().to.p_OF);
-  EXPECT_LE(cost_of(search, shorter), cost_of(search, moves) + 1e-12);
 }
 
 }  // namespace

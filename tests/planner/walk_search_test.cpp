@@ -1,5 +1,6 @@
 #include "planner/walk_search.h"
 
+#include <limits>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -28,7 +29,8 @@ std::optional<std::vector<Move>> walk_in(const SearchModel& search,
   const Limits limits(options, work);
   const FlatState start = flat_state(search.model->scene.start);
   const GoalPlaces goals = goal_places(*search.model, *search.model->scene.goal, start);
-  return search_walks(search, start, goals, WalkTurns::kFew, limits, work);
+  return search_walks(search, start, goals, WalkTurns::kFew,
+                      std::numeric_limits<double>::infinity(), limits, work);
 }
 
 /// Walks from the start to the goal by pushes that the exact mechanics does, too; the

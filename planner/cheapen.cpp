@@ -1,0 +1,55 @@
+#include "planner/cheapen.h"
+
+#include <cstdint>
+#include <utility>
+
+#include "planner/shorten.h"
+#include "planner/walk_search.h"
+
+namespace prehensile {
+namespace {
+
+/// J from which a walk is looked for: that takes a second.
+constexpr double kWorthWalk = 10.0;
+
+/// Of what is left of the budget.
+constexpr double kShareOfPairs = 0.6;
+constexpr double kShareOfWalk = 0.3;
+
+/// Lets `change` have a part of what is left of the work budget.
+template <typename Change>
+void with_a_share(double share, Work& work, Change change) {
+  const std::int64_t whole = work.budget;
+  const auto left = static_cast<double>(whole - work.done());
+  work.budget = work.done() + static_cast<std::int64_t>(share * left);
+  change();
+  work.budget = whole;
+}
+
+}  // namespace
+
+std::vector<Move> cheaper_by_pairs(const SearchModel& search, std::vector<Move> moves,
+                                   const Limits& limits, Work& work) {
+  if (cost_of(search, moves) < kDear) return moves;
+  if (work.meter) work.meter->enter("cheaper pushes");
+  with_a_share(kShareOfPairs, work,
+               [&] { moves = shortened_over_lattice(search, moves, limits, work); });
+  if (work.meter) work.meter->found(cost_of(search, moves));
+  return moves;
+}
+
+std::vector<Move> cheaper_by_walk(const SearchModel& search, const FlatState& start,
+                                  const GoalPlaces& goals, std::vector<Move> moves,
+                                  const Limits& limits, Work& work) {
+  const double cost = cost_of(search, moves);
+  if (cost < kWorthWalk) return moves;
+  if (work.meter) work.meter->enter("cheaper walk");
+  with_a_share(kShareOfWalk, work, [&] {
+    auto walk = search_walks(search, start, goals, WalkTurns::kFew, cost, limits, work);
+    if (walk && cost_of(search, *walk) < cost) moves = std::move(*walk);
+  });
+  if (work.meter) work.meter->found(cost_of(search, moves));
+  return moves;
+}
+
+}  // namespace prehensile

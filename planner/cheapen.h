@@ -1,0 +1,29 @@
+/// Cheaper pushes in the stead of dear ones. Internal to the own planner.
+///
+/// The first plan that a long search meets may place the pusher hundreds of times where
+/// five times would do, or wind the hand up and back. What these functions are given they
+/// leave as it is unless it is dear; their answers have the same start, end in one of the
+/// goals, and cost no more. Every push sticks with the real pad over the margin box. Each
+/// takes at most a part of what is left of the work budget.
+#pragma once
+
+#include <vector>
+
+#include "planner/goal.h"
+#include "planner/limits.h"
+
+namespace prehensile {
+
+/// J from which a plan is dear: a better one is looked for without being asked for.
+inline constexpr double kDear = 8.0;
+
+/// Two pushes through a node of a lattice take the place of many.
+std::vector<Move> cheaper_by_pairs(const SearchModel& search, std::vector<Move> moves,
+                                   const Limits& limits, Work& work);
+
+/// A walk over a fine lattice takes the place of all.
+std::vector<Move> cheaper_by_walk(const SearchModel& search, const FlatState& start,
+                                  const GoalPlaces& goals, std::vector<Move> moves,
+                                  const Limits& limits, Work& work);
+
+}  // namespace prehensile

@@ -1,0 +1,88 @@
+#include "planner/cheapen.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "planner/shorten.h"
+#include "problems/random_fixtures.h"
+#include "problems/random_regrasps.h"
+#include "tests/planner/planner_cases.h"
+#include "tests/planner/wasteful_moves.h"
+
+namespace prehensile {
+namespace {
+
+Scene random_scene(std::uint64_t index) {
+  const FixtureRange range{.object = static_cast<FixtureObject>(index % 4),
+                           .goals = GoalsFrom::kRandom};
+  return random_fixture(range, 5, index)->scene;
+}
+
+GoalPlaces end_of(const std::vector<Move>& moves) {
+  const FlatState& end = moves.back().to;
+  GoalPlaces goals;
+  goals.count = 1;
+  goals.places[0] = {.p_OF = end.p_OF, .count = 1, .theta = {end.theta}};
+  return goals;
+}
+
+TEST(Cheapen, DearMovesCostAFewPushes) {
+  const PlanOptions options;
+  double before = 0.0;
+  double after = 0.0;
+  for (std::uint64_t i = 0; i < 12; ++i) {
+    const Model model = prepare(random_scene(i));
+    const SearchModel search = prepare_search(model, Margin::none());
+    const auto moves = testing::wasteful_moves(search, i, 60);
+    if (moves.empty() || cost_of(search, moves) < kDear) continue;
+    Work work{.budget = 5'000'000};
+    const Limits limits(options, work);
+    auto cheaper = cheaper_by_pairs(search, moves, limits, work);
+    const double pairs = cost_of(search, cheaper);
+    EXPECT_LE(pairs, cost_of(search, moves) + 1e-9) << i;
+    cheaper =
+        cheaper_by_walk(search, moves.front().from, end_of(moves), cheaper, limits, work);
+    EXPECT_LE(cost_of(search, cheaper), pairs + 1e-9) << i;
+    EXPECT_TRUE(testing::is_detour_of(cheaper, moves)) << i;
+    EXPECT_EQ(work.budget, 5'000'000);
+    for (const Move& move : cheaper) EXPECT_TRUE(move_passes(search, move, work)) << i;
+    before += cost_of(search, moves);
+    after += cost_of(search, cheaper);
+  }
+  EXPECT_GT(before, 100.0);
+  EXPECT_LT(after, 0.2 * before);
+}
+
+/// What is cheap costs no work either.
+TEST(Cheapen, CheapMovesStay) {
+  const PlanOptions options;
+  const Model model = prepare(random_scene(0));
+  const SearchModel search = prepare_search(model, Margin::none());
+  const auto moves = testing::wasteful_moves(search, 0, 3);
+  ASSERT_LT(cost_of(search, moves), kDear);
+  Work work{.budget = testing::kNoBudget};
+  const Limits limits(options, work);
+  const auto by_pairs = cheaper_by_pairs(search, moves, limits, work);
+  const auto by_walk =
+      cheaper_by_walk(search, moves.front().from, end_of(moves), moves, limits, work);
+  EXPECT_EQ(cost_of(search, by_pairs), cost_of(search, moves));
+  EXPECT_EQ(cost_of(search, by_walk), cost_of(search, moves));
+  EXPECT_EQ(work.done(), 0);
+}
+
+/// The first plan of each winds the hand by hundreds of turns and back, or places the
+/// pusher hundreds of times.
+TEST(Cheapen, PlansAreNotDearWithoutNeed) {
+  const Scene wound = random_regrasp(RegraspFamily::kTee, 1, 195).scene;
+  const Scene of_tee = random_regrasp(RegraspFamily::kTee, 1, 166).scene;
+  const Scene zigzag = random_regrasp_of(of_tee, GoalsFrom::kRandom, 1, 166)->scene;
+  for (const Scene& scene : {wound, zigzag}) {
+    const Plan plan = plan_regrasp(prepare(scene), {.margin = Margin::none()});
+    ASSERT_EQ(plan.status, PlanStatus::kReachedGoal) << scene.name;
+    EXPECT_LT(plan.cost, 15.0) << scene.name;
+  }
+}
+
+}  // namespace
+}  // namespace prehensile

@@ -118,6 +118,13 @@ class Callbacks final : public Ipopt::TNLP {
     return true;
   }
 
+  bool intermediate_callback(Ipopt::AlgorithmMode, Index, Number, Number, Number, Number,
+                             Number, Number, Number, Number, Index,
+                             const Ipopt::IpoptData*,
+                             Ipopt::IpoptCalculatedQuantities*) override {
+    return !(program_.stop && program_.stop());
+  }
+
   void finalize_solution(Ipopt::SolverReturn, Index count, const Number* x, const Number*,
                          const Number*, Index, const Number*, const Number*, Number value,
                          const Ipopt::IpoptData*,
@@ -144,6 +151,8 @@ void describe_outcome(Ipopt::ApplicationReturnStatus code, NlpResult& result) {
     case Ipopt::Maximum_Iterations_Exceeded:
     case Ipopt::Maximum_CpuTime_Exceeded:
       return outcome(NlpStatus::kLimit, "iteration limit");
+    case Ipopt::User_Requested_Stop:
+      return outcome(NlpStatus::kLimit, "stopped");
     case Ipopt::Infeasible_Problem_Detected:
       return outcome(NlpStatus::kFailed, "locally infeasible");
     case Ipopt::Search_Direction_Becomes_Too_Small:

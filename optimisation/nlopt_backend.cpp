@@ -21,6 +21,7 @@ struct Side {
 /// The programme with its rows sorted into NLopt's two kinds, and scratch for callbacks.
 struct Problem {
   const NonlinearProgram* program = nullptr;
+  nlopt_opt optimiser = nullptr;
   std::vector<Side> equal, unequal;
   std::vector<double> g, jacobian;
 };
@@ -46,7 +47,11 @@ double objective(unsigned count, const double* x, double* gradient, void* data) 
   const Problem& problem = *static_cast<Problem*>(data);
   const std::span<double> into =
       gradient ? std::span<double>(gradient, count) : std::span<double>();
-  return problem.program->objective({x, count}, into);
+  const double value = problem.program->objective({x, count}, into);
+  if (problem.program->stop && problem.program->stop()) {
+    nlopt_force_stop(problem.optimiser);
+  }
+  return value;
 }
 
 void evaluate_sides(Problem& problem, const std::vector<Side>& sides, double* result,
@@ -113,6 +118,7 @@ NlpStatus status_of(nlopt_result code) {
       return NlpStatus::kConverged;
     case NLOPT_MAXEVAL_REACHED:
     case NLOPT_MAXTIME_REACHED:
+    case NLOPT_FORCED_STOP:
       return NlpStatus::kLimit;
     default:
       return NlpStatus::kFailed;
@@ -161,6 +167,7 @@ NlpResult minimise_nlopt(const NonlinearProgram& program, LocalMethod method,
       nlopt_destroy);
   Problem problem;
   problem.program = &program;
+  problem.optimiser = optimiser.get();
   sort_rows(problem);
   hand_over(problem, options, initial_step, optimiser.get());
 

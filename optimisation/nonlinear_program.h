@@ -38,12 +38,16 @@ struct NonlinearProgram {
   std::function<void(std::span<const double> x, double f_scale,
                      std::span<const double> multipliers, std::span<double> values)>
       hessian;
+
+  /// Asked after each iteration (Ipopt) or evaluation of f (NLopt): true ends the search,
+  /// at a limit. Optional.
+  std::function<bool()> stop;
 };
 
 enum class NlpStatus {
   kConverged,  ///< the library says so, or stops at the precision of the machine; x must
                ///< still be judged by its residual
-  kLimit,      ///< evaluation or iteration limit; x is the last iterate
+  kLimit,      ///< evaluation or iteration limit, or stopped; x is the last iterate
   kFailed,     ///< x is the last iterate, or the start if the library was not asked;
                ///< message says why
   kNotBuilt,   ///< the library was switched off at build time

@@ -11,6 +11,7 @@
 #include "planner/polish.h"
 #include "planner/repair.h"
 #include "planner/run_search.h"
+#include "planner/trajectory.h"
 #include "planner/word_plans.h"
 
 namespace prehensile {
@@ -92,8 +93,11 @@ std::string finish(const SearchModel& search, const PlanOptions& options,
   const std::string fault = why;
   if (!options.polish) return fault;
   if (work.meter) work.meter->enter("repair");
-  for (Plan& one : std::vector<Plan>(failed)) {
-    if (repair(search, limits, work, one) && passes(one)) return {};
+  const std::vector<Plan> rejected = failed;
+  for (const auto way : {repair_as_trajectory, repair}) {
+    for (Plan one : rejected) {
+      if (way(search, limits, work, one) && passes(one)) return {};
+    }
   }
   return fault;
 }

@@ -44,8 +44,9 @@ class StretchRepair {
     }
     if (missing_of(program.start) == 0.0) return false;
     program.objective = [this](std::span<const double> x, std::span<double>) {
-      return repaired_.empty() ? missing_of(x) : 0.0;
+      return missing_of(x);
     };
+    program.stop = [this] { return !repaired_.empty() || limits_.reached(); };
     minimise_nlopt(program, LocalMethod::kSubplex,
                    {.tolerance = 1e-6, .max_evaluations = kEvaluations},
                    kFirstStep * search_.model->L);
@@ -71,7 +72,6 @@ class StretchRepair {
   /// stick.
   double missing_of(std::span<const double> x) {
     constexpr double kFar = std::numeric_limits<double>::max();
-    if (limits_.reached()) return kFar;
     Plan part{.start = grasp_of(stretch_.start, stretch_.psi)};
     FlatState from = stretch_.start;
     double missing = 0.0;

@@ -75,6 +75,16 @@ TEST_F(Ipopt, SaysWhenItFailed) {
   EXPECT_EQ(minimise_ipopt(malformed).status, NlpStatus::kFailed);
 }
 
+TEST_F(Ipopt, EndsWhenToldTo) {
+  NonlinearProgram program = hock_schittkowski_71();
+  int asked = 0;
+  program.stop = [&asked] { return ++asked == 3; };
+  const NlpResult result = minimise_ipopt(program);
+  EXPECT_EQ(result.status, NlpStatus::kLimit) << result.message;
+  EXPECT_EQ(asked, 3);
+  EXPECT_GT(largest_difference(result.x, kHockSchittkowski71), 1e-6);
+}
+
 TEST_F(Ipopt, MovesTheStartIntoTheBounds) {
   NonlinearProgram program = hock_schittkowski_71();
   program.start = {-7.0, 30.0, 2.0, 2.0};

@@ -87,6 +87,17 @@ TEST_F(Nlopt, SaysWhenTheBudgetEndedTheSearch) {
   EXPECT_LE(result.evaluations, 5);
 }
 
+TEST_F(Nlopt, EndsWhenToldTo) {
+  for (const LocalMethod method : {LocalMethod::kSlsqp, LocalMethod::kSubplex}) {
+    NonlinearProgram program = rosenbrock();
+    int asked = 0;
+    program.stop = [&asked] { return ++asked == 5; };
+    const NlpResult result = minimise_nlopt(program, method);
+    EXPECT_EQ(result.status, NlpStatus::kLimit) << result.message;
+    EXPECT_EQ(asked, 5);
+  }
+}
+
 TEST_F(Nlopt, RefusesWhatItCannotTake) {
   const NlpResult bounds_only =
       minimise_nlopt(hock_schittkowski_71(), LocalMethod::kSubplex);

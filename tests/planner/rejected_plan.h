@@ -1,0 +1,47 @@
+/// Plans as the search finds them, of which some fail their exact check.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "planner/exact_check.h"
+#include "planner/push_search.h"
+#include "primitives/uncertainty.h"
+#include "tests/planner/planner_cases.h"
+
+namespace prehensile::testing {
+
+/// With the usual margin.
+struct RejectedPlan {
+  explicit RejectedPlan(const Scene& scene)
+      : model(prepare(scene)), search(prepare_search(model, usual_margin(model))) {
+    plan = search_pushes(search, scene.start, *scene.goal, options, work);
+    plan.margin = search.margin;
+  }
+
+  bool passes(Plan one) const {
+    return check_exactly(model, options.transition, one, nullptr);
+  }
+
+  Model model;
+  SearchModel search;
+  PlanOptions options;
+  Work work{.budget = 5'000'000};
+  Plan plan;
+};
+
+/// Expects pushes by the same contacts, with the same start and end.
+inline void expect_same_way(const Plan& plan, const Plan& other) {
+  const auto expect_same = [](const Grasp& a, const Grasp& b) {
+    EXPECT_NEAR(a.X_HO.x, b.X_HO.x, 1e-12);
+    EXPECT_NEAR(a.X_HO.y, b.X_HO.y, 1e-12);
+    EXPECT_NEAR(a.X_HO.theta, b.X_HO.theta, 1e-12);
+  };
+  ASSERT_EQ(plan.pushes.size(), other.pushes.size());
+  expect_same(plan.pushes.front().start, other.pushes.front().start);
+  expect_same(plan.pushes.back().end, other.pushes.back().end);
+  for (std::size_t i = 0; i < other.pushes.size(); ++i) {
+    EXPECT_EQ(contact_of(plan.pushes[i].push), contact_of(other.pushes[i].push));
+  }
+}
+
+}  // namespace prehensile::testing

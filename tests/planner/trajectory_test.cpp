@@ -1,0 +1,99 @@
+#include "planner/trajectory.h"
+
+#include <gtest/gtest.h>
+
+#include "optimisation/nonlinear_program.h"
+#include "planner/push_search.h"
+#include "planner/repair.h"
+#include "planner/stretch.h"
+#include "problems/published_regrasps.h"
+#include "problems/random_fixtures.h"
+#include "tests/planner/rejected_plan.h"
+
+namespace prehensile {
+namespace {
+
+using testing::RejectedPlan;
+
+class Trajectory : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!ipopt_is_built()) GTEST_SKIP() << "built without Ipopt";
+  }
+};
+
+Scene wide_tee(int index) {
+  return random_among_walls(false, RegraspRange::kWide, true, 1, index);
+}
+
+/// Ways of many pushes over a T, which drift by more than the search counts: most of them
+/// with more way-points than sub-plex can move.
+TEST_F(Trajectory, MakesPushesStickThatSlipWithinTheMargin) {
+  int rejected = 0;
+  int repaired = 0;
+  int by_subplex = 0;
+  for (const int index : {109, 233, 295, 439, 451}) {
+    RejectedPlan one(wide_tee(index));
+    ASSERT_EQ(one.plan.status, PlanStatus::kReachedGoal) << index;
+    if (one.passes(one.plan)) continue;
+    ++rejected;
+    const Limits limits(one.options, one.work);
+    Plan other = one.plan;
+    by_subplex += repair(one.search, limits, one.work, other) && one.passes(other);
+    Plan mended = one.plan;
+    if (!repair_as_trajectory(one.search, limits, one.work, mended)) continue;
+    EXPECT_TRUE(one.passes(mended)) << index;
+    testing::expect_same_way(mended, one.plan);
+    ++repaired;
+  }
+  EXPECT_GE(rejected, 4);
+  EXPECT_GE(repaired, rejected - 1);
+  EXPECT_LT(by_subplex, repaired);
+}
+
+TEST_F(Trajectory, IsTheSameEveryTime) {
+  RejectedPlan one(wide_tee(439));
+  const Limits limits(one.options, one.work);
+  Plan a = one.plan;
+  Plan b = one.plan;
+  ASSERT_TRUE(repair_as_trajectory(one.search, limits, one.work, a));
+  ASSERT_TRUE(repair_as_trajectory(one.search, limits, one.work, b));
+  for (std::size_t i = 0; i < a.pushes.size(); ++i) {
+    EXPECT_EQ(a.pushes[i].end, b.pushes[i].end) << i;
+  }
+}
+
+TEST_F(Trajectory, LeavesPlansAloneThatStick) {
+  RejectedPlan one(published_tee(20));
+  ASSERT_TRUE(one.passes(one.plan));
+  const Limits limits(one.options, one.work);
+  EXPECT_FALSE(repair_as_trajectory(one.search, limits, one.work, one.plan));
+  EXPECT_TRUE(one.passes(one.plan));
+}
+
+/// The angle is no unknown there.
+TEST_F(Trajectory, LeavesPushesByPointsAlone) {
+  const FixtureRange range{.object = FixtureObject::kBox,
+                           .pushers = FixturePushers::kPoints,
+                           .goals = GoalsFrom::kPushes};
+  int plans = 0;
+  for (std::uint64_t i = 0; i < 6; ++i) {
+    RejectedPlan one(random_fixture(range, 1, i)->scene);
+    if (one.plan.pushes.size() < 2) continue;
+    ++plans;
+    const Limits limits(one.options, one.work);
+    EXPECT_FALSE(repair_as_trajectory(one.search, limits, one.work, one.plan)) << i;
+  }
+  EXPECT_GE(plans, 1);
+}
+
+TEST_F(Trajectory, EndsWithTheWork) {
+  RejectedPlan one(wide_tee(439));
+  ASSERT_FALSE(one.passes(one.plan));
+  one.work.budget = one.work.done();
+  const Limits limits(one.options, one.work);
+  EXPECT_FALSE(repair_as_trajectory(one.search, limits, one.work, one.plan));
+}
+
+}  // namespace
+}  // namespace prehensile

@@ -277,12 +277,8 @@ std::optional<Move> direct_move(const SearchModel& search, const FlatState& from
   return std::nullopt;
 }
 
-namespace {
-
-/// Of discs, spread over all angles; infinity of other pads.
-double slack_of_spread_pads(const SearchModel& search, const Move& move,
+double slack_of_spread_pads(const SearchModel& search, const Move& move, int parts,
                             Work& work) noexcept {
-  constexpr int kParts = 3;
   constexpr int kTestsForPlace = 10;
   const Model& model = *search.model;
   const Motion motion(move.from, move.to);
@@ -295,16 +291,15 @@ double slack_of_spread_pads(const SearchModel& search, const Move& move,
     return std::numeric_limits<double>::infinity();
   }
   int clipped = 0;
-  const double slack = spread_slack_along(
-      model, contact, move.from.p_OF, e, motion.travel(), motion.omega, kParts, &clipped);
+  const double slack = spread_slack_along(model, contact, move.from.p_OF, e,
+                                          motion.travel(), motion.omega, parts, &clipped);
   work.other += kTestsForPlace * clipped;
   return slack;
 }
 
-}  // namespace
-
 double move_slack(const SearchModel& search, const Move& move, int points,
                   Work& work) noexcept {
+  constexpr int kSpreadParts = 3;
   const double place = place_of(search, move);
   const Margin margin = search.margin_from(move.from.p_OF);
   double least = std::numeric_limits<double>::infinity();
@@ -314,7 +309,7 @@ double move_slack(const SearchModel& search, const Move& move, int points,
     least = std::min(least, pad_test(search, move, place, share, margin).slack);
   }
   if (!(least >= -kStickTolerance)) return least;
-  return std::min(least, slack_of_spread_pads(search, move, work));
+  return std::min(least, slack_of_spread_pads(search, move, kSpreadParts, work));
 }
 
 bool path_on_object(const Model& model, const PathEnd& from, const PathEnd& to,

@@ -117,6 +117,12 @@ std::optional<Move> direct_move(const SearchModel& search, const FlatState& from
 double move_slack(const SearchModel& search, const Move& move, int points,
                   Work& work) noexcept;
 
+/// Least slack of a move with discs spread over all angles, without a margin, looked at
+/// at the ends of up to `parts` parts of it where the face clips them; infinity of other
+/// pads. No heap.
+double slack_of_spread_pads(const SearchModel& search, const Move& move, int parts,
+                            Work& work) noexcept;
+
 /// Whether an end of a path is the planner's choice.
 struct PathEnd {
   Vec2 p_OF = Vec2::Zero();

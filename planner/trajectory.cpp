@@ -13,9 +13,7 @@
 #include "planner/exact_check.h"
 #include "planner/goal.h"
 #include "planner/push_search.h"
-#include "planner/ring_pads.h"
 #include "planner/segment.h"
-#include "planner/spread_pads.h"
 #include "planner/stretch.h"
 
 namespace prehensile {
@@ -26,12 +24,13 @@ constexpr double kTolerance = 1e-6;
 constexpr double kReach = 0.15;       // of a way-point from its place, over L
 constexpr double kWanted = 0.01;      // slack of each push
 constexpr double kEnough = 1e-6;      // above rounding
-constexpr double kWorst = -3.0;       // slacks below it count as this
+constexpr double kWorst = -3.0;       // slacks beyond it, either way, count as this
 constexpr double kLeastRoom = 1e-4;   // beyond what the margin needs, over L
 constexpr double kLeastShare = 0.5;   // of the length of a push, which has to stay
 constexpr double kPrice = 10.0;       // of what a push misses, against squares of moves
 constexpr double kFirstLack = 0.01;   // more than what a push misses at the start
 constexpr double kDifference = 1e-6;  // for derivatives, over L
+constexpr int kSpreadParts = 8;       // of a push, for discs that the face clips
 constexpr std::size_t kMostPushes = 80;
 
 /// Rows of a push. The least slack of each part of it comes first; all but the last count
@@ -148,13 +147,18 @@ class Trajectory {
     const double length = (move.to.p_OF - move.from.p_OF).norm();
     const Margin margin = carried(margin_, at[kTravelled]);
     fill_slacks(move, margin, rows);
-    const double spread = slack_of_spread_pads(move);
-    rows[kSpreadRow] = (spread >= kWorst ? spread : kWorst) - kWanted;
+    const double spread = slack_of_spread_pads(search_, move, kSpreadParts, work_);
+    rows[kSpreadRow] = counted(spread) - kWanted;
     rows[kHeldRow] = held_at(move.contact, move.from.p_OF, k == 0);
     rows[kHeldRow + 1] = held_at(move.contact, move.to.p_OF, k == inner());
     rows[kRoomRow] = room_of(k, move, margin) / L_ - kLeastRoom;
     rows[kLengthRow] = (length - least_lengths_[k]) / L_;
     rows[kPathRow] = (at[kTravelled] + length) / L_;
+  }
+
+  /// NaN and -infinity, too, are numbers for the library.
+  static double counted(double slack) {
+    return slack >= kWorst ? std::min(slack, -kWorst) : kWorst;
   }
 
   /// At the places where the exact check looks: discs of points that turn about a place
@@ -179,25 +183,9 @@ class Trajectory {
                            margin, s * length)
               .slack;
       double& row = rows[i * kParts / count];
-      row = std::min(row, (slack >= kWorst ? slack : kWorst) - kWanted);
+      row = std::min(row, counted(slack) - kWanted);
     }
     work_.stick_tests += static_cast<std::int64_t>(count);
-  }
-
-  double slack_of_spread_pads(const Move& move) const {
-    constexpr int kMostSpreadParts = 100;
-    const Model& model = *search_.model;
-    const PushContact& contact = model.contacts[search_.contacts[move.contact].contact];
-    const Vec2& p_OF = move.from.p_OF;
-    const Vec2 d = move.to.p_OF - p_OF;
-    const double length = d.norm();
-    const double turn = move.to.theta - move.from.theta;
-    if (has_ring_pads(model)) {
-      return ring_slack(model, contact, p_OF, -d / length, length, turn);
-    }
-    if (!has_clipped_discs(model)) return std::numeric_limits<double>::max();
-    return spread_slack_along(model, contact, p_OF, -d / length, length, turn,
-                              kMostSpreadParts);
   }
 
   double held_at(int contact, const Vec2& p_OF, bool given) const {

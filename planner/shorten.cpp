@@ -184,15 +184,13 @@ Moves by_far_two_pushes(ChainFinder find, const SearchModel& search, const Moves
     return true;
   };
   for (std::size_t i = 0; i < moves.size();) {
-    std::size_t count = std::min(kWidestPair, moves.size() - i);
-    while (count > 2 && !limits.reached() && !is_replaced(i, count)) {
-      count = count * 2 / 3;
+    std::size_t replaced = 0;
+    for (std::size_t count = std::min(kWidestPair, moves.size() - i);
+         replaced == 0 && count > 2 && !limits.reached(); count = count * 2 / 3) {
+      if (is_replaced(i, count)) replaced = count;
     }
-    if (count <= 2 || limits.reached()) {
-      count = 1;
-      shorter.push_back(moves[i]);
-    }
-    i += count;
+    if (replaced == 0) shorter.push_back(moves[i]);
+    i += std::max<std::size_t>(1, replaced);
   }
   return shorter;
 }

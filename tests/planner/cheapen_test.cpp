@@ -1,7 +1,5 @@
 #include "planner/cheapen.h"
 
-#include <cmath>
-
 #include <gtest/gtest.h>
 
 #include "planner/shorten.h"
@@ -71,8 +69,8 @@ TEST(Cheapen, CheapMovesStay) {
   EXPECT_EQ(work.done(), 0);
 }
 
-/// The first plan of each winds the hand by hundreds of turns and back, or places the
-/// pusher hundreds of times.
+/// The first plan of the one winds the hand by hundreds of turns and back, that of the
+/// other goes along a line in hundreds of short pushes.
 TEST(Cheapen, PlansAreNotDearWithoutNeed) {
   const Scene wound = random_regrasp(RegraspFamily::kTee, 1, 195).scene;
   const Scene of_tee = random_regrasp(RegraspFamily::kTee, 1, 166).scene;

@@ -26,12 +26,19 @@ void with_a_share(double share, Work& work, Change change) {
   work.budget = whole;
 }
 
+void enter(const char* stage, double cost, Work& work) {
+  if (!work.meter) return;
+  work.meter->enter(stage);
+  work.meter->found(cost);
+}
+
 }  // namespace
 
 std::vector<Move> cheaper_by_pairs(const SearchModel& search, std::vector<Move> moves,
                                    const Limits& limits, Work& work) {
-  if (cost_of(search, moves) < kDear) return moves;
-  if (work.meter) work.meter->enter("cheaper pushes");
+  const double cost = cost_of(search, moves);
+  if (cost < kDear) return moves;
+  enter("cheaper pushes", cost, work);
   with_a_share(kShareOfPairs, work,
                [&] { moves = shortened_over_lattice(search, moves, limits, work); });
   if (work.meter) work.meter->found(cost_of(search, moves));
@@ -43,7 +50,7 @@ std::vector<Move> cheaper_by_walk(const SearchModel& search, const FlatState& st
                                   const Limits& limits, Work& work) {
   const double cost = cost_of(search, moves);
   if (cost < kWorthWalk) return moves;
-  if (work.meter) work.meter->enter("cheaper walk");
+  enter("cheaper walk", cost, work);
   with_a_share(kShareOfWalk, work, [&] {
     auto walk = search_walks(search, start, goals, WalkTurns::kFew, cost, limits, work);
     if (walk && cost_of(search, *walk) < cost) moves = std::move(*walk);

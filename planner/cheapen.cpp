@@ -9,8 +9,8 @@
 namespace prehensile {
 namespace {
 
-/// J from which a walk is looked for: that takes a second.
-constexpr double kWorthWalk = 10.0;
+/// J from which a walk is looked for, which takes a second.
+constexpr double kWorthWalk = 20.0;
 
 /// Of what is left of the budget.
 constexpr double kShareOfPairs = 0.6;

@@ -14,8 +14,13 @@
 
 namespace prehensile {
 
-/// J from which a plan is dear: a better one is looked for without being asked for.
-inline constexpr double kDear = 8.0;
+/// J from which a plan is dear: a cheaper one is looked for without being asked for.
+/// Below it that seldom saves much, and takes tenths of a second.
+inline constexpr double kDear = 15.0;
+
+/// The same of two pushes: these then wind the hand up, and more pushes may do it for
+/// less.
+inline constexpr double kDearPair = 8.0;
 
 /// Two pushes through a node of a lattice take the place of many.
 std::vector<Move> cheaper_by_pairs(const SearchModel& search, std::vector<Move> moves,

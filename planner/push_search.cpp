@@ -81,7 +81,7 @@ std::optional<std::vector<Move>> search_with_real_pads(const SearchModel& search
                          : moves ? cost_of(search, *moves)
                                  : kInfinity;
   if (moves && work.meter) work.meter->found(to_beat);
-  const bool is_dear = best && to_beat >= kDear;
+  const bool is_dear = best && to_beat >= (best->chain.count > 2 ? kDear : kDearPair);
   if (limits.improves() || is_dear || (!best && !search.exact_everywhere)) {
     const auto found =
         search_long_chains(search, from, goals, pads, to_beat, limits, work);
@@ -147,7 +147,7 @@ bool plan_in_plane(const SearchModel& search, const Grasp& start, const Goal& go
       return true;
     }
   }
-  const double enough = limits.improves() ? kGoodEnough * bound : kDear;
+  const double enough = limits.improves() ? kGoodEnough * bound : kDearPair;
   if (found && found->chain.cost <= enough) {
     append_chain(search, from, found->chain, plan);
     return true;

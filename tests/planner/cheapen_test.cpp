@@ -33,7 +33,7 @@ TEST(Cheapen, DearMovesCostAFewPushes) {
     const Model model = prepare(random_scene(i));
     const SearchModel search = prepare_search(model, Margin::none());
     const auto moves = testing::wasteful_moves(search, i, 60);
-    if (moves.empty() || cost_of(search, moves) < kDear) continue;
+    if (moves.empty() || cost_of(search, moves) < 20.0) continue;
     Work work{.budget = 5'000'000};
     const Limits limits(options, work);
     auto cheaper = cheaper_by_pairs(search, moves, limits, work);
@@ -58,7 +58,7 @@ TEST(Cheapen, CheapMovesStay) {
   const Model model = prepare(random_scene(0));
   const SearchModel search = prepare_search(model, Margin::none());
   const auto moves = testing::wasteful_moves(search, 0, 3);
-  ASSERT_LT(cost_of(search, moves), kDear);
+  ASSERT_LT(cost_of(search, moves), 8.0);
   Work work{.budget = testing::kNoBudget};
   const Limits limits(options, work);
   const auto by_pairs = cheaper_by_pairs(search, moves, limits, work);
@@ -78,7 +78,7 @@ TEST(Cheapen, PlansAreNotDearWithoutNeed) {
   for (const Scene& scene : {wound, zigzag}) {
     const Plan plan = plan_regrasp(prepare(scene), {.margin = Margin::none()});
     ASSERT_EQ(plan.status, PlanStatus::kReachedGoal) << scene.name;
-    EXPECT_LT(plan.cost, 15.0) << scene.name;
+    EXPECT_LT(plan.cost, 20.0) << scene.name;
   }
 }
 

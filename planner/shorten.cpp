@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "planner/chain_search.h"
 #include "planner/costs.h"
@@ -143,7 +144,10 @@ std::optional<Moves> two_pushes(ChainFinder find, const SearchModel& search,
   GoalPlaces goal;
   goal.count = 1;
   goal.places[0] = {.p_OF = to.p_OF, .count = 1, .theta = {to.theta}};
+  // What is found between two states is no plan to report.
+  ProgressMeter* const meter = std::exchange(work.meter, nullptr);
   const auto found = find(search, from, goal, limits, work);
+  work.meter = meter;
   if (!found) return std::nullopt;
   Moves moves = moves_of(search, found->chain, from);
   moves.back().to = to;

@@ -1,5 +1,7 @@
 #include "planner/cheapen.h"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "planner/shorten.h"
@@ -80,6 +82,23 @@ TEST(Cheapen, PlansAreNotDearWithoutNeed) {
     ASSERT_EQ(plan.status, PlanStatus::kReachedGoal) << scene.name;
     EXPECT_LT(plan.cost, 20.0) << scene.name;
   }
+}
+
+/// What is found between two states of a plan is no plan.
+TEST(Cheapen, ProgressTellsCostsOfWholePlans) {
+  const Scene of_tee = random_regrasp(RegraspFamily::kTee, 1, 166).scene;
+  const Model model =
+      prepare(random_regrasp_of(of_tee, GoalsFrom::kRandom, 1, 166)->scene);
+  double least = std::numeric_limits<double>::infinity();
+  int calls = 0;
+  PlanOptions options{.margin = Margin::none()};
+  options.progress = [&](const SearchProgress& progress) {
+    ++calls;
+    if (progress.best_cost < least) least = progress.best_cost;
+  };
+  const Plan plan = plan_regrasp(model, options);
+  EXPECT_GT(calls, 0);
+  EXPECT_GE(least, plan.cost - 0.5);  // polish comes after the search
 }
 
 }  // namespace

@@ -147,11 +147,15 @@ int points_along(const Move& move) {
 
 // By the ellipsoid; a can's line of contact need not pass under the finger axis, so it is
 // judged with the real pads only.
-bool is_held(const SearchModel& search, int contact, const Stop& stop) noexcept {
-  if (can_roll(search.model->scene.object)) return true;
+double held_slack(const SearchModel& search, int contact, const Stop& stop) noexcept {
+  if (can_roll(search.model->scene.object)) return 1.0;
   const Vec2& g_O = search.model->contacts[search.contacts[contact].contact].g_O;
   const Margin& margin = stop.given ? Margin::none() : search.margin;
-  return holding_slack(*search.model, stop.p_OF, g_O, margin) > 0.0;
+  return holding_slack(*search.model, stop.p_OF, g_O, margin);
+}
+
+bool is_held(const SearchModel& search, int contact, const Stop& stop) noexcept {
+  return held_slack(search, contact, stop) > 0.0;
 }
 
 bool make_leg(const Steering& steering, int contact, const Stop& from, const Stop& to,
@@ -264,6 +268,18 @@ double exact_slack(const SearchModel& search, const Move& move, Work& work) noex
   const double slack = move_slack(search, move, search.exact_everywhere ? 2 : 3, work);
   if (!(slack >= -kStickTolerance) || ends_decide(search, move, slack)) return slack;
   return move_slack(search, move, points_along(move), work);
+}
+
+std::vector<Move> moves_of(const SearchModel& search, const FlatState& start,
+                           const Chain& chain) {
+  std::vector<Move> moves;
+  moves.reserve(static_cast<std::size_t>(chain.count));
+  double theta = start.theta;
+  for (int k = 0; k < chain.count; ++k) {
+    moves.push_back(move_of(search, chain, k, theta));
+    theta = moves.back().to.theta;
+  }
+  return moves;
 }
 
 void centre_chain(const SearchModel& search, double dtheta, double share,

@@ -54,6 +54,10 @@ inline constexpr double kShortestLeg = 1e-5;
 bool make_leg(const Steering& steering, int contact, const Stop& from, const Stop& to,
               Work& work, Leg& leg) noexcept;
 
+/// By how much the grasp holds gravity at the stop while a contact pushes: 1 - load, of
+/// the ellipsoid. 1 for cans, whose pads the exact check looks at. No heap.
+double held_slack(const SearchModel& search, int contact, const Stop& stop) noexcept;
+
 /// Whether the grasp holds gravity at the stop while a contact pushes.
 bool is_held(const SearchModel& search, int contact, const Stop& stop) noexcept;
 
@@ -82,8 +86,12 @@ bool make_chain_stick(const SearchModel& search, double theta_start, double dthe
 /// Placements of the chain: runs of legs by one contact.
 int placements(const Chain& chain) noexcept;
 
-/// The moves of a solved chain, starting at this angle.
+/// One move of a solved chain, starting at this angle.
 Move move_of(const SearchModel& search, const Chain& chain, int leg, double theta_from);
+
+/// All of them.
+std::vector<Move> moves_of(const SearchModel& search, const FlatState& start,
+                           const Chain& chain);
 
 /// Rotation of one leg of a solved chain [rad].
 double turn_of(const SearchModel& search, const Chain& chain, int leg);

@@ -16,14 +16,9 @@ constexpr double kWorthWalk = 20.0;
 constexpr double kShareOfPairs = 0.6;
 constexpr double kShareOfWalk = 0.3;
 
-/// Lets `change` have a part of what is left of the work budget.
-template <typename Change>
-void with_a_share(double share, Work& work, Change change) {
-  const std::int64_t whole = work.budget;
-  const auto left = static_cast<double>(whole - work.done());
-  work.budget = work.done() + static_cast<std::int64_t>(share * left);
-  change();
-  work.budget = whole;
+std::int64_t share_of_left(const Work& work, double share) {
+  return static_cast<std::int64_t>(share *
+                                   static_cast<double>(work.budget - work.done()));
 }
 
 void enter(const char* stage, double cost, Work& work) {
@@ -39,8 +34,9 @@ std::vector<Move> cheaper_by_pairs(const SearchModel& search, std::vector<Move> 
   const double cost = cost_of(search, moves);
   if (cost < kDear) return moves;
   enter("cheaper pushes", cost, work);
-  with_a_share(kShareOfPairs, work,
-               [&] { moves = shortened_over_lattice(search, moves, limits, work); });
+  moves = within_budget(work, share_of_left(work, kShareOfPairs), [&] {
+    return shortened_over_lattice(search, moves, limits, work);
+  });
   if (work.meter) work.meter->found(cost_of(search, moves));
   return moves;
 }
@@ -51,10 +47,10 @@ std::vector<Move> cheaper_by_walk(const SearchModel& search, const FlatState& st
   const double cost = cost_of(search, moves);
   if (cost < kWorthWalk) return moves;
   enter("cheaper walk", cost, work);
-  with_a_share(kShareOfWalk, work, [&] {
-    auto walk = search_walks(search, start, goals, WalkTurns::kFew, cost, limits, work);
-    if (walk && cost_of(search, *walk) < cost) moves = std::move(*walk);
+  auto walk = within_budget(work, share_of_left(work, kShareOfWalk), [&] {
+    return search_walks(search, start, goals, WalkTurns::kFew, cost, limits, work);
   });
+  if (walk && cost_of(search, *walk) < cost) moves = std::move(*walk);
   if (work.meter) work.meter->found(cost_of(search, moves));
   return moves;
 }

@@ -109,19 +109,22 @@ constexpr double kLeastRadius = 1e-4;
 
 }  // namespace
 
+int places_along(double travel, double turn) noexcept {
+  constexpr double kTravel = 2e-3;  // [m]
+  constexpr double kTurn = 0.1;     // [rad]
+  const double parts = std::max(travel / kTravel, std::abs(turn) / kTurn);
+  return static_cast<int>(std::clamp(std::ceil(parts) + 1.0, 3.0, 50.0));
+}
+
 double push_slack(const Model& model, const Grasp& start, const Push& push,
                   const Margin& margin) {
   if (const auto* roll = std::get_if<Roll>(&push))
     return roll_slack(model, *roll, margin);
-  constexpr double kPointTravel = 2e-3;  // [m]
-  constexpr double kPointTurn = 0.1;     // [rad]
   constexpr int kMostSpreadParts = 100;
   const LinearPush linear = as_linear(push);
   const PushContact& contact = model.contacts[linear.contact];
   const Vec2 p_OF = finger_in_object(start.X_HO);
-  const double parts =
-      std::max(linear.travel / kPointTravel, std::abs(linear.turn) / kPointTurn);
-  const int points = static_cast<int>(std::clamp(std::ceil(parts) + 1.0, 3.0, 50.0));
+  const int points = places_along(linear.travel, linear.turn);
   if (contact.is_point) return slack_by_point(model, start, linear, points - 1, margin);
   double slack = std::numeric_limits<double>::infinity();
   if (has_ring_pads(model)) {

@@ -10,9 +10,13 @@
 
 namespace prehensile {
 
+/// At how many places along a straight push its slack is looked at, both ends included:
+/// every 2 mm and 0.1 rad, 3 to 50.
+int places_along(double travel, double turn) noexcept;
+
 /// Least slack over the margin box along a push that starts at this grasp, by the real
-/// pad, in the pad plane; points every 2 mm and 0.1 rad, at most 50, along the way that
-/// the object takes. Infinity for a roll, which has no margin box.
+/// pad, in the pad plane, at places along the way that the object takes. Infinity for a
+/// roll, which has no margin box.
 double push_slack(const Model& model, const Grasp& start, const Push& push,
                   const Margin& margin);
 

@@ -30,8 +30,7 @@ constexpr int kDirections = 8;
 double offset(int i, double step) { return step * (i % 2 == 0 ? -i / 2 : (i + 1) / 2); }
 
 double flat_distance(const Model& model, const FlatState& from, const GoalPlace& to) {
-  const double dtheta = to.theta[0] - from.theta;
-  return std::hypot((to.p_OF - from.p_OF).norm(), model.c * dtheta);
+  return flat_distance(model, from, FlatState{to.p_OF, to.theta[0]});
 }
 
 class PlaceCollector {

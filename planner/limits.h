@@ -3,11 +3,22 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 
 #include "planner/planner.h"
 #include "planner/steering.h"
 
 namespace prehensile {
+
+/// Lets `act` spend so much work from here on at most, and gives its answer.
+template <typename Act>
+auto within_budget(Work& work, std::int64_t budget, Act act) {
+  const std::int64_t whole = work.budget;
+  work.budget = work.done() + budget;
+  auto answer = act();
+  work.budget = whole;
+  return answer;
+}
 
 class Limits {
  public:

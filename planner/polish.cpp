@@ -24,10 +24,9 @@ bool shorten(const Steering& steering, const Limits& limits, Work& work,
   NonlinearProgram program;
   program.start = stretch.way_points;
   program.objective = [&](std::span<const double> x, std::span<double> /*gradient*/) {
-    const bool possible =
-        !limits.reached() && chain_of(steering, stretch, x, work, chain);
-    return possible ? chain.cost : kInfeasible;
+    return chain_of(steering, stretch, x, work, chain) ? chain.cost : kInfeasible;
   };
+  program.stop = [&limits] { return limits.reached(); };
   const NlpResult result =
       minimise_nlopt(program, LocalMethod::kSubplex,
                      {.tolerance = 1e-6, .max_evaluations = kEvaluations},

@@ -25,10 +25,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr const char* kOwnPlanner = "push";
 
-double flat_distance(const SearchModel& search, const FlatState& a, const FlatState& b) {
-  return std::hypot((b.p_OF - a.p_OF).norm(), search.model->c * (b.theta - a.theta));
-}
-
 /// The contact with the most slack for one straight move, by the real pad alone.
 std::optional<Move> best_contact(const SearchModel& search, const FlatState& from,
                                  const FlatState& to, Work& work) noexcept {
@@ -48,18 +44,6 @@ std::optional<Move> best_contact(const SearchModel& search, const FlatState& fro
     best = move;
   }
   return best;
-}
-
-std::vector<Move> moves_of(const SearchModel& search, const FlatState& start,
-                           const Chain& chain) {
-  std::vector<Move> moves;
-  moves.reserve(static_cast<std::size_t>(chain.count));
-  double theta = start.theta;
-  for (int k = 0; k < chain.count; ++k) {
-    moves.push_back(move_of(search, chain, k, theta));
-    theta = moves.back().to.theta;
-  }
-  return moves;
 }
 
 /// Chains and fans of the stages that know the pads themselves. `best`: the plan so far,
@@ -172,11 +156,10 @@ bool plan_by_many_turns(const SearchModel& search, const Grasp& start, const Goa
                         const Limits& limits, Work& work, Plan& plan) {
   const FlatState from = flat_state(start);
   const auto walk_to = [&](const GoalPlaces& places, std::int64_t budget) {
-    const std::int64_t whole = work.budget;
-    work.budget = work.done() + budget;
-    const auto moves =
-        search_walks(search, from, places, WalkTurns::kMany, kInfinity, limits, work);
-    work.budget = whole;
+    const auto moves = within_budget(work, budget, [&] {
+      return search_walks(search, from, places, WalkTurns::kMany, kInfinity, limits,
+                          work);
+    });
     if (!moves) return false;
     const auto cheaper = cheaper_by_pairs(search, *moves, limits, work);
     for (const Move& move : cheaper) append_move(search, move, plan);
@@ -273,7 +256,7 @@ std::vector<Grasp> roll_places(const SearchModel& search, const Grasp& start, do
     }
   }
   const auto way = [&](const Grasp& grasp) {
-    return flat_distance(search, flat_state(start), flat_state(grasp));
+    return flat_distance(*search.model, flat_state(start), flat_state(grasp));
   };
   std::stable_sort(grasps.begin(), grasps.end(),
                    [&](const Grasp& a, const Grasp& b) { return way(a) < way(b); });
@@ -315,7 +298,7 @@ std::optional<Move> direct_push(const SearchModel& search, const FlatState& star
     bool on_object = false;
     for (int j = 0; j < place.count; ++j) {
       const FlatState end{place.p_OF, place.theta[j]};
-      const double distance = flat_distance(search, start, end);
+      const double distance = flat_distance(*search.model, start, end);
       if (distance >= best_distance) continue;
       on_object = on_object || path_on_object(*search.model, {start.p_OF, true},
                                               {place.p_OF, true}, search.margin);

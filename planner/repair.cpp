@@ -34,7 +34,9 @@ class StretchRepair {
 
   /// False if no push slips, or no way-points were found with which none does.
   bool run(std::vector<PlannedPush>& pushes) {
-    if (!read_stretch(search_, pushes, stretch_) || any_by_point()) return false;
+    if (!read_stretch(search_, pushes, stretch_) || any_by_point(search_, stretch_)) {
+      return false;
+    }
     NonlinearProgram program;
     for (std::size_t i = 0; i + 1 < pushes.size(); ++i) {
       const FlatState at = flat_state(pushes[i].end);
@@ -56,13 +58,6 @@ class StretchRepair {
   }
 
  private:
-  /// An object turns about a point as the pads let it: its angle is no variable.
-  bool any_by_point() const {
-    return std::ranges::any_of(stretch_.contacts, [&](int contact) {
-      return search_.contacts[contact].stick.is_point;
-    });
-  }
-
   FlatState state_at(std::span<const double> x, std::size_t point) const {
     if (3 * point == x.size()) return stretch_.end;
     return {{x[3 * point], x[3 * point + 1]}, x[3 * point + 2] / search_.model->c};
@@ -121,17 +116,10 @@ class StretchRepair {
 
 bool repair(const SearchModel& search, const Limits& limits, Work& work, Plan& plan) {
   if (!nlopt_is_built()) return false;
-  Plan other = plan;
-  bool repaired = false;
-  double travelled = 0.0;
-  change_stretches(other, [&](std::vector<PlannedPush>& pushes) {
-    if (pushes.size() >= 2 && pushes.size() <= kMostPushes) {
-      repaired |= StretchRepair(search, limits, work, plan.margin, travelled).run(pushes);
-    }
-    for (const PlannedPush& push : pushes) travelled += travel_in_pad_plane(push.push);
-  });
-  if (repaired) plan.pushes = std::move(other.pushes);
-  return repaired;
+  return repair_stretches(
+      plan, kMostPushes, [&](std::vector<PlannedPush>& pushes, double travelled) {
+        return StretchRepair(search, limits, work, plan.margin, travelled).run(pushes);
+      });
 }
 
 }  // namespace prehensile

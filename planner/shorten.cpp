@@ -26,11 +26,6 @@ constexpr double kWorthAnother = 1e-3;
 
 using Moves = std::vector<Move>;
 
-double flat_length(const SearchModel& search, const Move& move) {
-  return std::hypot((move.to.p_OF - move.from.p_OF).norm(),
-                    search.model->c * (move.to.theta - move.from.theta));
-}
-
 /// Shortest path over the states between the moves of a sequence; a node of the graph is
 /// a state and the contact that came there.
 class Shortcut {
@@ -117,16 +112,6 @@ Moves by_single_pushes(const SearchModel& search, const Moves& moves,
   return shortcut.best();
 }
 
-Moves moves_of(const SearchModel& search, const Chain& chain, const FlatState& from) {
-  Moves moves;
-  double theta = from.theta;
-  for (int k = 0; k < chain.count; ++k) {
-    moves.push_back(move_of(search, chain, k, theta));
-    theta = moves.back().to.theta;
-  }
-  return moves;
-}
-
 using ChainFinder = std::optional<FoundChain> (*)(const SearchModel&, const FlatState&,
                                                   const GoalPlaces&, const Limits&,
                                                   Work&);
@@ -149,7 +134,7 @@ std::optional<Moves> two_pushes(ChainFinder find, const SearchModel& search,
   const auto found = find(search, from, goal, limits, work);
   work.meter = meter;
   if (!found) return std::nullopt;
-  Moves moves = moves_of(search, found->chain, from);
+  Moves moves = moves_of(search, from, found->chain);
   moves.back().to = to;
   return moves;
 }
@@ -219,7 +204,7 @@ double cost_of(const SearchModel& search, const std::vector<Move>& moves) {
   double length = 0.0;
   int placements = 0;
   for (std::size_t k = 0; k < moves.size(); ++k) {
-    length += flat_length(search, moves[k]);
+    length += flat_distance(*search.model, moves[k].from, moves[k].to);
     if (k == 0 || moves[k].contact != moves[k - 1].contact) ++placements;
   }
   return placements + length / placement_length(*search.model);

@@ -25,6 +25,11 @@ struct FlatState {
   double theta = 0.0;
 };
 
+/// In the flat space (p_OF, c theta) [m].
+inline double flat_distance(const Model& model, const FlatState& a, const FlatState& b) {
+  return std::hypot((b.p_OF - a.p_OF).norm(), model.c * (b.theta - a.theta));
+}
+
 /// Counts stick tests against the budget, the only thing that ends a search besides a
 /// stop, and what went wrong on the way.
 struct Work {

@@ -1,8 +1,10 @@
 #include "planner/stretch.h"
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
+#include "planner/exact_check.h"
 #include "planner/goal.h"
 #include "planner/push_search.h"
 
@@ -59,12 +61,7 @@ std::vector<PlannedPush> pushes_of(const SearchModel& search, const Stretch& str
                                    const Chain& chain) {
   Plan part;
   part.start = grasp_of(stretch.start, stretch.psi);
-  double theta = stretch.start.theta;
-  for (int k = 0; k < chain.count; ++k) {
-    const Move move = move_of(search, chain, k, theta);
-    append_move(search, move, part);
-    theta = move.to.theta;
-  }
+  append_chain(search, stretch.start, chain, part);
   return part.pushes;
 }
 
@@ -87,6 +84,22 @@ void change_stretches(Plan& plan,
   }
   finish_stretch();
   plan.pushes = std::move(result);
+}
+
+bool any_by_point(const SearchModel& search, const Stretch& stretch) {
+  return std::ranges::any_of(stretch.contacts, [&](int contact) {
+    return search.contacts[contact].stick.is_point;
+  });
+}
+
+bool repair_stretches(Plan& plan, std::size_t most, const StretchMender& mend) {
+  bool repaired = false;
+  double travelled = 0.0;
+  change_stretches(plan, [&](std::vector<PlannedPush>& pushes) {
+    if (pushes.size() >= 2 && pushes.size() <= most) repaired |= mend(pushes, travelled);
+    for (const PlannedPush& push : pushes) travelled += travel_in_pad_plane(push.push);
+  });
+  return repaired;
 }
 
 }  // namespace prehensile

@@ -33,4 +33,17 @@ std::vector<PlannedPush> pushes_of(const SearchModel& search, const Stretch& str
 void change_stretches(Plan& plan,
                       const std::function<void(std::vector<PlannedPush>&)>& change);
 
+/// Whether a push is by a point: the object turns about it as the pads let it, so that
+/// its angle is not for a planner to choose.
+bool any_by_point(const SearchModel& search, const Stretch& stretch);
+
+/// Moves the way-points of pushes before which the finger axis has travelled so far [m];
+/// false, and leaves them as they are, where that is not possible.
+using StretchMender =
+    std::function<bool(std::vector<PlannedPush>& pushes, double travelled)>;
+
+/// Lets `mend` have every part of a plan between its rolls of 2 to `most` pushes; whether
+/// it mended any.
+bool repair_stretches(Plan& plan, std::size_t most, const StretchMender& mend);
+
 }  // namespace prehensile

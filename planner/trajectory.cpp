@@ -64,7 +64,9 @@ class Trajectory {
 
   /// False if no push slips, or no way-points were found with which none does.
   bool run(std::vector<PlannedPush>& pushes) {
-    if (!read_stretch(search_, pushes, stretch_) || any_by_point()) return false;
+    if (!read_stretch(search_, pushes, stretch_) || any_by_point(search_, stretch_)) {
+      return false;
+    }
     NonlinearProgram program;
     set_start(pushes, program);
     if (keep_if_it_sticks(program.start)) return false;
@@ -80,13 +82,6 @@ class Trajectory {
  private:
   std::size_t count() const { return stretch_.contacts.size(); }
   std::size_t inner() const { return count() - 1; }
-
-  /// An object turns about a point as the pads let it: its angle is no unknown.
-  bool any_by_point() const {
-    return std::ranges::any_of(stretch_.contacts, [&](int contact) {
-      return search_.contacts[contact].stick.is_point;
-    });
-  }
 
   /// Where unknown `i` of push `k` is among the variables, or -1 if it is given.
   int variable_of(std::size_t k, std::size_t i) const {
@@ -149,8 +144,8 @@ class Trajectory {
     fill_slacks(move, margin, rows);
     const double spread = slack_of_spread_pads(search_, move, kSpreadParts, work_);
     rows[kSpreadRow] = counted(spread) - kWanted;
-    rows[kHeldRow] = held_at(move.contact, move.from.p_OF, k == 0);
-    rows[kHeldRow + 1] = held_at(move.contact, move.to.p_OF, k == inner());
+    rows[kHeldRow] = held_slack(search_, move.contact, {move.from.p_OF, k == 0});
+    rows[kHeldRow + 1] = held_slack(search_, move.contact, {move.to.p_OF, k == inner()});
     rows[kRoomRow] = room_of(k, move, margin) / L_ - kLeastRoom;
     rows[kLengthRow] = (length - least_lengths_[k]) / L_;
     rows[kPathRow] = (at[kTravelled] + length) / L_;
@@ -164,16 +159,13 @@ class Trajectory {
   /// At the places where the exact check looks: discs of points that turn about a place
   /// under them have a slack that leaps.
   void fill_slacks(const Move& move, const Margin& margin, std::span<double> rows) const {
-    constexpr double kPointTravel = 2e-3;  // [m]
-    constexpr double kPointTurn = 0.1;     // [rad]
     const Model& model = *search_.model;
     const SearchContact& contact = search_.contacts[move.contact];
     const Vec2 d = move.to.p_OF - move.from.p_OF;
     const double length = d.norm();
     const double turn = move.to.theta - move.from.theta;
-    const double places =
-        std::ceil(std::max(length / kPointTravel, std::abs(turn) / kPointTurn)) + 1.0;
-    const auto count = static_cast<std::size_t>(std::clamp(places, 1.0 * kParts, 50.0));
+    const auto count = static_cast<std::size_t>(
+        std::max(static_cast<int>(kParts), places_along(length, turn)));
     std::fill(rows.begin(), rows.begin() + kParts, std::numeric_limits<double>::max());
     for (std::size_t i = 0; i < count; ++i) {
       const double s = static_cast<double>(i) / static_cast<double>(count - 1);
@@ -186,12 +178,6 @@ class Trajectory {
       row = std::min(row, counted(slack) - kWanted);
     }
     work_.stick_tests += static_cast<std::int64_t>(count);
-  }
-
-  double held_at(int contact, const Vec2& p_OF, bool given) const {
-    const Model& model = *search_.model;
-    const Vec2& g_O = model.contacts[search_.contacts[contact].contact].g_O;
-    return holding_slack(model, p_OF, g_O, given ? Margin::none() : margin_);
   }
 
   /// Of a place of the finger axis from the border of the face [m]; negative outside.
@@ -345,17 +331,10 @@ class Trajectory {
 bool repair_as_trajectory(const SearchModel& search, const Limits& limits, Work& work,
                           Plan& plan) {
   if (!ipopt_is_built()) return false;
-  Plan other = plan;
-  bool repaired = false;
-  double travelled = 0.0;
-  change_stretches(other, [&](std::vector<PlannedPush>& pushes) {
-    if (pushes.size() >= 2 && pushes.size() <= kMostPushes) {
-      repaired |= Trajectory(search, limits, work, plan.margin, travelled).run(pushes);
-    }
-    for (const PlannedPush& push : pushes) travelled += travel_in_pad_plane(push.push);
-  });
-  if (repaired) plan.pushes = std::move(other.pushes);
-  return repaired;
+  return repair_stretches(
+      plan, kMostPushes, [&](std::vector<PlannedPush>& pushes, double travelled) {
+        return Trajectory(search, limits, work, plan.margin, travelled).run(pushes);
+      });
 }
 
 }  // namespace prehensile

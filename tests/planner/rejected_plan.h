@@ -44,4 +44,25 @@ inline void expect_same_way(const Plan& plan, const Plan& other) {
   }
 }
 
+/// A way to repair plans, as repair() and repair_as_trajectory() are.
+using Repair = bool (*)(const SearchModel&, const Limits&, Work&, Plan&);
+
+/// Expects that a plan that sticks stays as it is.
+inline void expect_sticking_plans_stay(Repair repair, const Scene& scene) {
+  RejectedPlan one(scene);
+  ASSERT_TRUE(one.passes(one.plan));
+  const Limits limits(one.options, one.work);
+  EXPECT_FALSE(repair(one.search, limits, one.work, one.plan));
+  EXPECT_TRUE(one.passes(one.plan));
+}
+
+/// Expects that nothing is repaired once the work is spent.
+inline void expect_end_with_the_work(Repair repair, const Scene& scene) {
+  RejectedPlan one(scene);
+  ASSERT_FALSE(one.passes(one.plan));
+  one.work.budget = one.work.done();
+  const Limits limits(one.options, one.work);
+  EXPECT_FALSE(repair(one.search, limits, one.work, one.plan));
+}
+
 }  // namespace prehensile::testing

@@ -52,18 +52,12 @@ TEST(Repair, BringsAWayPointBack) {
 }
 
 TEST(Repair, LeavesPlansAloneThatStick) {
-  RejectedPlan one(published_tee(20));
-  ASSERT_TRUE(one.passes(one.plan));
-  const Limits limits(one.options, one.work);
-  EXPECT_FALSE(repair(one.search, limits, one.work, one.plan));
-  EXPECT_TRUE(one.passes(one.plan));
+  testing::expect_sticking_plans_stay(&repair, published_tee(20));
 }
 
 TEST(Repair, EndsWithTheWork) {
-  RejectedPlan one(random_among_walls(false, RegraspRange::kWide, true, 1, 56));
-  one.work.budget = one.work.done();
-  const Limits limits(one.options, one.work);
-  EXPECT_FALSE(repair(one.search, limits, one.work, one.plan));
+  testing::expect_end_with_the_work(
+      &repair, random_among_walls(false, RegraspRange::kWide, true, 1, 56));
 }
 
 }  // namespace

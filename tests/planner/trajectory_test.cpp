@@ -64,11 +64,7 @@ TEST_F(Trajectory, IsTheSameEveryTime) {
 }
 
 TEST_F(Trajectory, LeavesPlansAloneThatStick) {
-  RejectedPlan one(published_tee(20));
-  ASSERT_TRUE(one.passes(one.plan));
-  const Limits limits(one.options, one.work);
-  EXPECT_FALSE(repair_as_trajectory(one.search, limits, one.work, one.plan));
-  EXPECT_TRUE(one.passes(one.plan));
+  testing::expect_sticking_plans_stay(&repair_as_trajectory, published_tee(20));
 }
 
 /// The angle is no unknown there.
@@ -82,17 +78,15 @@ TEST_F(Trajectory, LeavesPushesByPointsAlone) {
     if (one.plan.pushes.size() < 2) continue;
     ++plans;
     const Limits limits(one.options, one.work);
+    const std::int64_t before = one.work.done();
     EXPECT_FALSE(repair_as_trajectory(one.search, limits, one.work, one.plan)) << i;
+    EXPECT_EQ(one.work.done(), before) << i;
   }
   EXPECT_GE(plans, 1);
 }
 
 TEST_F(Trajectory, EndsWithTheWork) {
-  RejectedPlan one(wide_tee(439));
-  ASSERT_FALSE(one.passes(one.plan));
-  one.work.budget = one.work.done();
-  const Limits limits(one.options, one.work);
-  EXPECT_FALSE(repair_as_trajectory(one.search, limits, one.work, one.plan));
+  testing::expect_end_with_the_work(&repair_as_trajectory, wide_tee(439));
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "planner/local_law.h"
 #include "planner/place_slacks.h"
 #include "planner/ring_kappas.h"
+#include "planner/ring_pads.h"
 #include "planner/steering.h"
 #include "scene/outline.h"
 
@@ -45,10 +46,17 @@ constexpr std::array kLevels = {0.5, 0.25, 0.75};
 /// A field with less at the goal [spacings of the grid] shows no barrier.
 constexpr double kLeastValue = 0.5;
 
-/// What sticks at a place, over pads that are whole everywhere.
-class WholePads {
+/// Where pushes of a contact end for lack of grip the check wants a fall for sure: so
+/// much of what the grip holds may be missing before the field takes it for one.
+constexpr double kNearlyHeld = 0.05;
+
+/// Half of the directions that are looked at as one where the law says what sticks [rad].
+constexpr double kHalfLooked = 1e-3;
+
+/// What sticks at a place, over soft points and round pads that are whole everywhere.
+class RoundPads {
  public:
-  explicit WholePads(const Model& model)
+  explicit RoundPads(const Model& model)
       : search_(prepare_search(model, Margin::none())), model_(model) {}
 
   FreeDirections free_at(const Vec2& place) const {
@@ -77,6 +85,34 @@ class WholePads {
   }
 
   const SearchModel search_;
+  const Model& model_;
+};
+
+/// What the law lets stick at a place, over pads of other shapes, which deflect the
+/// friction by more than what the field allows for.
+class LawfulPads {
+ public:
+  explicit LawfulPads(const Model& model) : law_(model), model_(model) {}
+
+  FreeDirections free_at(const Vec2& place) const {
+    if (depth_inside(model_.pad_face, place) < 0.0) return {};
+    std::vector<int> contacts;
+    for (int k = 0; k < static_cast<int>(model_.contacts.size()); ++k) {
+      const Vec2& g_O = model_.contacts[k].g_O;
+      if (holding_slack(model_, place, g_O, Margin::none()) >= -kNearlyHeld) {
+        contacts.push_back(k);
+      }
+    }
+    if (contacts.empty()) return {};
+    return FreeDirections::where([&](double angle) {
+      return std::ranges::any_of(contacts, [&](int contact) {
+        return law_.may_move(contact, {place, place}, {towards(angle), kHalfLooked});
+      });
+    });
+  }
+
+ private:
+  const LocalLaw law_;
   const Model& model_;
 };
 
@@ -225,34 +261,47 @@ std::vector<Vec2> places_of(const Goal& goal, double spacing) {
   return places;
 }
 
-/// What a field shows.
-struct Shown {
-  bool separates = false;  ///< the goal from the start, if only by what it allows
-  Loops barrier;           ///< a level that is one
+/// Tries levels of a field. `weak`: where the last region that was tried may be crossed.
+class Levels {
+ public:
+  explicit Levels(const Model& model)
+      : model_(model), start_(finger_in_object(model.scene.start.X_HO)) {}
+
+  /// Whether the field separates the goal from the start, if only by what it allows.
+  bool separate(CheatField& field, Judged judged, double freely) {
+    const double spacing = field.grid().spacing;
+    const std::vector<Vec2> goals = places_of(*model_.scene.goal, 0.25 * spacing);
+    cost_ = field.costs(start_, goals, judged, freely, &of_goal_);
+    return of_goal_ > kLeastValue * spacing && of_goal_ != kInfinity;
+  }
+
+  /// A level that is a barrier, or none.
+  Loops barrier_of(CheatField& field, Judged judged, double freely) {
+    if (!separate(field, judged, freely)) return {};
+    for (const double share : kLevels) {
+      Loops region =
+          loops_below(field.grid(), cost_, share * of_goal_, 0.1 * field.grid().spacing);
+      if (verify_barrier(model_, region, nullptr, &weak_)) return region;
+    }
+    return {};
+  }
+
+ private:
+  const Model& model_;
+  Vec2 start_;
+  std::vector<double> cost_;
+  double of_goal_ = 0.0;
+  std::optional<Vec2> weak_;
 };
 
-Shown shown_by(const Model& model, CheatField& field, Judged judged, double freely) {
-  const double spacing = field.grid().spacing;
-  const Vec2 start = finger_in_object(model.scene.start.X_HO);
-  const std::vector<Vec2> goals = places_of(*model.scene.goal, 0.25 * spacing);
-  double of_goal = 0.0;
-  const std::vector<double> cost = field.costs(start, goals, judged, freely, &of_goal);
-  if (!(of_goal > kLeastValue * spacing) || of_goal == kInfinity) return {};
-  for (const double share : kLevels) {
-    Loops region = loops_below(field.grid(), cost, share * of_goal, 0.1 * spacing);
-    if (verify_barrier(model, region, nullptr)) return {true, std::move(region)};
-  }
-  return {true, {}};
-}
-
-Loops barrier_of_whole_pads(const Model& model, const Stopped& stopped) {
-  const WholePads pads(model);
+Loops barrier_of_whole_pads(const Model& model, const FreeAt& free_at,
+                            const Stopped& stopped) {
+  Levels levels(model);
   for (const int nodes : kNodesPerSide) {
-    CheatField field(
-        model, nodes, [&](const Vec2& place) { return pads.free_at(place); }, stopped);
+    CheatField field(model, nodes, free_at, stopped);
     for (const double freely : kFreely) {
-      Shown shown = shown_by(model, field, Judged::kWhereItBegins, freely);
-      if (!shown.barrier.empty()) return shown.barrier;
+      Loops barrier = levels.barrier_of(field, Judged::kWhereItBegins, freely);
+      if (!barrier.empty()) return barrier;
     }
   }
   return {};
@@ -260,24 +309,33 @@ Loops barrier_of_whole_pads(const Model& model, const Stopped& stopped) {
 
 Loops barrier_of_clipped_discs(const Model& model, const Stopped& stopped) {
   PlaceSlacks slacks(model);
+  Levels levels(model);
+  constexpr std::array kWays = {Judged::kAtBothEnds, Judged::kAllAlong};
   for (const int nodes : kNodesPerSideWhereClipped) {
-    bool any_separates = false;
-    for (const double allowed : kAllowed) {
-      CheatField field(
+    const auto field_allowing = [&](double allowed) {
+      return CheatField(
           model, nodes,
-          [&](const Vec2& place) {
+          [&slacks, allowed](const Vec2& place) {
             return FreeDirections::above(slacks.at(place), -allowed);
           },
           stopped);
-      for (const Judged judged : {Judged::kAtBothEnds, Judged::kAllAlong}) {
+    };
+    // What the strictest field does not separate no other does.
+    CheatField strictest = field_allowing(kAllowed.back());
+    if (std::ranges::none_of(kWays, [&](Judged judged) {
+          return levels.separate(strictest, judged, kFreelyWhereClipped.back());
+        })) {
+      return {};
+    }
+    for (const double allowed : kAllowed) {
+      CheatField field = field_allowing(allowed);
+      for (const Judged judged : kWays) {
         for (const double freely : kFreelyWhereClipped) {
-          Shown shown = shown_by(model, field, judged, freely);
-          if (!shown.barrier.empty()) return shown.barrier;
-          any_separates = any_separates || shown.separates;
+          Loops barrier = levels.barrier_of(field, judged, freely);
+          if (!barrier.empty()) return barrier;
         }
       }
     }
-    if (!any_separates) break;
   }
   return {};
 }
@@ -290,7 +348,15 @@ Loops find_barrier(const Model& model, const Stopped& stopped) {
   if (has_clipped_discs(model)) {
     return has_clipped_law(model) ? barrier_of_clipped_discs(model, stopped) : Loops{};
   }
-  return LocalLaw(model).is_known() ? barrier_of_whole_pads(model, stopped) : Loops{};
+  if (!LocalLaw(model).is_known()) return {};
+  if (model.has_soft_points() || has_ring_pads(model)) {
+    const RoundPads pads(model);
+    return barrier_of_whole_pads(
+        model, [&](const Vec2& place) { return pads.free_at(place); }, stopped);
+  }
+  const LawfulPads pads(model);
+  return barrier_of_whole_pads(
+      model, [&](const Vec2& place) { return pads.free_at(place); }, stopped);
 }
 
 }  // namespace prehensile

@@ -7,6 +7,8 @@
 #pragma once
 
 #include <functional>
+#include <optional>
+#include <string>
 
 #include "planner/plan.h"
 
@@ -23,6 +25,9 @@ Loops find_barrier(const Model& model, const std::function<bool()>& stopped = {}
 /// (nullptr: not wanted) says what fails. Each piece of its border on the object is
 /// looked at with every contact and every direction outwards, and cut until the laws
 /// exclude them, or the pads would let go of the object there in that contact's attitude.
-bool verify_barrier(const Model& model, const Loops& region, std::string* why);
+/// `weak`: a place near which the border is looked at first, if there is one; receives
+/// where a push may cross it.
+bool verify_barrier(const Model& model, const Loops& region, std::string* why,
+                    std::optional<Vec2>* weak = nullptr);
 
 }  // namespace prehensile

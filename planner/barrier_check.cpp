@@ -1,12 +1,17 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <optional>
+#include <vector>
 
 #include "mechanics/pad_law.h"
 #include "planner/barrier.h"
 #include "planner/clipped_law.h"
 #include "planner/goal_cover.h"
 #include "planner/local_law.h"
+#include "planner/ring_pads.h"
 #include "scene/outline.h"
 
 namespace prehensile {
@@ -23,6 +28,9 @@ constexpr int kMostTurns = 8;
 /// little more or less as it turns; a clipped one more so.
 constexpr double kUneven = 0.02;
 constexpr double kUnevenWhereClipped = 0.05;
+
+/// Angles of the object at which pads that are not round are looked at.
+constexpr int kAnglesOfPads = 48;
 
 /// Pieces where the face clips the discs, in their torque radii: from the longest that
 /// are looked at to the shortest that are cut.
@@ -98,22 +106,43 @@ double depth_in_region(const Loops& region, const Vec2& p) {
   return is_between(region, p) ? nearest : -nearest;
 }
 
-/// The contact's pushes end where the grasp alone does not hold the object in its
-/// attitude. The excess of gravity's power in one twist is affine in the place, so both
-/// ends decide for all of the piece.
-bool falls_all_along(const Model& model, const PushContact& contact, const Piece& piece) {
-  const auto grasp_there = [&](const Vec2& p_OF) {
-    return grasp_at(model, pose_from_finger(p_OF, 0.0), contact.g_O);
-  };
-  PlanarTwist fall = PlanarTwist::Zero();
-  if (gravity_slack_by_pad_law(model, grasp_there(piece.middle()), &fall) >= 0.0) {
-    return false;
+/// Distance of the farthest pad point from the finger axis [m].
+double reach_of(const PlanarGrasp& grasp) {
+  double reach = 0.0;
+  for (int j = 0; j < grasp.count; ++j) {
+    reach = std::max(reach, std::hypot(grasp.x[j], grasp.y[j]));
   }
-  const auto falls_at = [&](const Vec2& p_OF) {
-    const PlanarGrasp grasp = grasp_there(p_OF);
-    return grasp.w_g.dot(fall) > (1.0 + kUneven) * friction_power(model, grasp, fall);
+  return reach;
+}
+
+/// The contact's pushes end where the grasp alone does not hold the object in its
+/// attitude, whatever its angle. The excess of gravity's power in one twist is affine in
+/// the place, so both ends decide for all of the piece. Of pads that are not round no
+/// point comes farther than its radius times half a step from where one of the angles has
+/// it.
+bool falls_all_along(const Model& model, const PushContact& contact, const Piece& piece) {
+  const bool is_round = model.has_soft_points() || has_ring_pads(model);
+  const int angles = is_round ? 1 : kAnglesOfPads;
+  const double half_step = is_round ? 0.0 : std::numbers::pi / kAnglesOfPads;
+  const auto falls_at = [&](double angle) {
+    const auto grasp_there = [&](const Vec2& p_OF) {
+      return grasp_at(model, pose_from_finger(p_OF, angle), contact.g_O);
+    };
+    PlanarTwist fall = PlanarTwist::Zero();
+    if (gravity_slack_by_pad_law(model, grasp_there(piece.middle()), &fall) >= 0.0) {
+      return false;
+    }
+    return std::ranges::all_of(std::array{piece.a, piece.b}, [&](const Vec2& p_OF) {
+      const PlanarGrasp grasp = grasp_there(p_OF);
+      const double between = model.F * std::abs(fall[2]) * reach_of(grasp) * half_step;
+      return grasp.w_g.dot(fall) >
+             (1.0 + kUneven) * friction_power(model, grasp, fall) + between;
+    });
   };
-  return falls_at(piece.a) && falls_at(piece.b);
+  for (int i = 0; i < angles; ++i) {
+    if (!falls_at(2.0 * half_step * i)) return false;
+  }
+  return true;
 }
 
 /// Whether the laws keep a contact from crossing the piece in any direction whose angle
@@ -203,9 +232,31 @@ Piece piece_of(const Loops& region, const Vec2& a, const Vec2& b) {
   return piece;
 }
 
+/// All of the border. A border that may be crossed may be so along some of it, which is
+/// soon found among pieces each of which is far from those before it; and near `weak`.
+std::vector<Piece> pieces_of(const Loops& region, const Vec2* weak) {
+  constexpr double kGolden = 0.6180339887498949;
+  std::vector<Piece> pieces;
+  for (const auto& loop : region) {
+    auto step = 1 + static_cast<std::size_t>(kGolden * static_cast<double>(loop.size()));
+    while (std::gcd(step, loop.size()) != 1) ++step;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const std::size_t i = k * step % loop.size();
+      pieces.push_back(piece_of(region, loop[i], loop[(i + 1) % loop.size()]));
+    }
+  }
+  if (weak) {
+    const auto nearest = std::ranges::min_element(
+        pieces, {}, [&](const Piece& piece) { return (piece.middle() - *weak).norm(); });
+    std::iter_swap(pieces.begin(), nearest);
+  }
+  return pieces;
+}
+
 }  // namespace
 
-bool verify_barrier(const Model& model, const Loops& region, std::string* why) {
+bool verify_barrier(const Model& model, const Loops& region, std::string* why,
+                    std::optional<Vec2>* weak) {
   const Goal& goal = *model.scene.goal;
   if (!goal.x || !goal.y) return refuse(why, "the goal leaves a coordinate free");
   const BorderLaw law(model);
@@ -221,13 +272,10 @@ bool verify_barrier(const Model& model, const Loops& region, std::string* why) {
       })) {
     return refuse(why, "a pose of the goal is in the region");
   }
-  for (const auto& loop : region) {
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const Piece piece = piece_of(region, loop[i], loop[(i + 1) % loop.size()]);
-      if (!law.is_sealed(piece, kMostCuts)) {
-        return refuse(why, "a push may cross the border of the region");
-      }
-    }
+  for (const Piece& piece : pieces_of(region, weak && *weak ? &**weak : nullptr)) {
+    if (law.is_sealed(piece, kMostCuts)) continue;
+    if (weak) *weak = piece.middle();
+    return refuse(why, "a push may cross the border of the region");
   }
   return true;
 }

@@ -4,9 +4,8 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <numbers>
-
-#include "planner/pad_section.h"
 
 namespace prehensile {
 namespace {
@@ -35,23 +34,6 @@ std::vector<FrictionBox> ellipsoid_boxes() {
   return boxes;
 }
 
-FrictionBox box_of(const SectionCell& cell) {
-  FrictionBox box;
-  box.cosine_low = 1.0 / cell.sigma_high;
-  box.cosine_high = 1.0 / cell.sigma_low;
-  box.sine_low = cell.sine_low;
-  box.sine_high = cell.sine_high;
-  box.along_low = cell.drag_low * box.cosine_low;
-  box.along_high = cell.drag_high * box.cosine_high;
-  box.across = cell.deviation * box.along_high;
-  const auto moment = std::minmax(
-      {cell.turning_low * cell.drag_low, cell.turning_low * cell.drag_high,
-       cell.turning_high * cell.drag_low, cell.turning_high * cell.drag_high});
-  box.moment_low = moment.first;
-  box.moment_high = moment.second;
-  return box;
-}
-
 /// Turning on the spot, faster than in the box.
 FrictionBox beyond(const FrictionBox& last) {
   FrictionBox box = last;
@@ -72,16 +54,15 @@ bool has_planar_pushes(const Model& model) {
          });
 }
 
-std::vector<FrictionBox> boxes_of(const PadSection& section) {
-  std::vector<FrictionBox> boxes;
-  for (const SectionCell& cell : section.cells) boxes.push_back(box_of(cell));
-  for (const double sign : {1.0, -1.0}) {
-    const SectionCell* last = nullptr;
-    for (const SectionCell& cell : section.cells) {
-      if (sign * (cell.sine_low + cell.sine_high) < 0.0) continue;
-      if (!last || cell.sigma_high > last->sigma_high) last = &cell;
+std::vector<FrictionBox> boxes_of(PadSection section) {
+  std::vector<FrictionBox>& boxes = section.boxes;
+  double slowest = std::numeric_limits<double>::infinity();
+  for (const FrictionBox& box : boxes) slowest = std::min(slowest, box.cosine_low);
+  const std::size_t known = boxes.size();
+  for (std::size_t i = 0; i < known; ++i) {
+    if (slowest > 0.0 && boxes[i].cosine_low == slowest) {
+      boxes.push_back(beyond(boxes[i]));
     }
-    if (last && std::isfinite(last->sigma_high)) boxes.push_back(beyond(box_of(*last)));
   }
   std::ranges::stable_sort(boxes, {}, &middle_sine);
   return boxes;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "mechanics/model.h"
+#include "planner/pad_section.h"
 
 namespace prehensile {
 
@@ -26,20 +27,11 @@ struct DirectionSpan {
   double half_angle = 0.0;
 };
 
-/// Friction over F, and over F c, of the pads for some interval of kappa = tan(phi).
-struct FrictionBox {
-  double along_low = 0.0, along_high = 0.0;    ///< against the motion, >= 0
-  double across = 0.0;                         ///< at most, of either sign
-  double moment_low = 0.0, moment_high = 0.0;  ///< over F c
-  double cosine_low = 0.0, cosine_high = 0.0;  ///< of phi
-  double sine_low = 0.0, sine_high = 0.0;      ///< of phi
-};
-
 class LocalLaw {
  public:
-  /// Known of whole pads: soft points, discs, and what is alike at every quarter turn
-  /// (pad_section.h). `model` must outlive the law. `weightless`: of pushes that stick
-  /// without gravity as well (Margin::weightless).
+  /// Known of pads that are whole wherever they are (pad_section.h), and of soft points.
+  /// `model` must outlive the law. `weightless`: of pushes that stick without gravity as
+  /// well (Margin::weightless).
   explicit LocalLaw(const Model& model, bool weightless = false);
 
   /// Of discs that the face clips elsewhere (has_clipped_discs), at places where they are

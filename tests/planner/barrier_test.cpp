@@ -147,9 +147,14 @@ TEST(Barrier, FeasibleProblemsHaveNone) {
 /// Over F: a fall that leaves more than this is none that a check may count on.
 constexpr double kBarelyFalls = 0.01;
 
+/// The pads are the same at every place and angle.
+bool are_alike(const Model& model) {
+  return model.has_soft_points() || has_ring_pads(model);
+}
+
 /// By how much the grasp holds gravity, the pads as the face leaves them.
 double slack_of_gravity(const Model& model, const PlanarPose& X_HO, const Vec2& g_O) {
-  if (!has_clipped_discs(model)) {
+  if (are_alike(model)) {
     return holding_slack(model, finger_in_object(X_HO), g_O, Margin::none());
   }
   return gravity_slack_by_pad_law(model, grasp_at(model, X_HO, g_O));
@@ -182,10 +187,10 @@ int crossings(const Model& model, const Loops& region, int tries, Random& random
   return crossed;
 }
 
-/// As a plan has to: where the face clips the discs, at close places.
+/// As a plan has to: of pads that change at close places.
 bool sticks_all_along(const SearchModel& search, const Move& move, Work& work) {
   const Model& model = *search.model;
-  if (!has_clipped_discs(model)) {
+  if (are_alike(model)) {
     return move_sticks(search, move.contact, move.from, move.to, work);
   }
   return move_holds(search, move, work) &&
@@ -193,10 +198,10 @@ bool sticks_all_along(const SearchModel& search, const Move& move, Work& work) {
                     Margin::none()) >= 0.0;
 }
 
-/// Pads that are whole everywhere propose what sticks, clipped ones have no closed form.
+/// Pads that are alike everywhere propose what sticks, others have no closed form.
 KappaSet proposed(const Model& model, const StickContact& contact, const Vec2& p_OF,
                   const Vec2& e, Random& random) {
-  if (!has_clipped_discs(model)) return sticking_kappas(contact, p_OF, e);
+  if (are_alike(model)) return sticking_kappas(contact, p_OF, e);
   KappaSet set;
   set.count = 1;
   const double kappa = random_kappa(random);
@@ -236,13 +241,14 @@ struct Attack {
   int problems, tries, walks;
 };
 
-void attack(Overhang overhang, const Attack& size) {
+void attack(Overhang overhang, const Attack& size, std::string_view pads = "") {
   const auto [problems, tries, walks] = size;
   Random random(3);
   int proved = 0;
   for (int i = 0; i < problems; ++i) {
-    const auto scene = random_problem(i, overhang);
+    auto scene = random_problem(i, overhang);
     if (!scene) continue;
+    if (!pads.empty()) scene = with_pads(*scene, *pad_of_shape(pads));
     const Model model = prepare(*scene);
     const Loops region = find_barrier(model);
     if (region.empty()) continue;
@@ -252,10 +258,22 @@ void attack(Overhang overhang, const Attack& size) {
       EXPECT_FALSE(escapes(model, region, 200, random)) << i;
     }
   }
-  EXPECT_GT(proved, problems / (overhang == Overhang::kClip ? 10 : 6));
+  const bool are_discs = pads.empty();
+  const int one_of = !are_discs ? 16 : overhang == Overhang::kClip ? 10 : 6;
+  EXPECT_GT(proved, problems / one_of);
 }
 
 TEST(Barrier, NothingCrossesIt) { attack(Overhang::kIgnore, {40, 2000, 20}); }
+
+TEST(Barrier, NothingCrossesThatOfPadsOfOtherShapes) {
+  for (const auto pads : {"1:2", "line", "half_disc"}) {
+    attack(Overhang::kIgnore, {24, 1000, 2}, pads);
+  }
+}
+
+TEST(Barrier, FullNothingCrossesThatOfPadsOfOtherShapes) {
+  for (const auto pads : kPadShapes) attack(Overhang::kIgnore, {300, 5000, 20}, pads);
+}
 
 TEST(Barrier, NothingCrossesItWhereTheFaceClips) {
   attack(Overhang::kClip, {24, 1000, 10});

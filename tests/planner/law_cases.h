@@ -8,6 +8,7 @@
 #include "mechanics/sticking.h"
 #include "planner/ring_pads.h"
 #include "planner/spread_pads.h"
+#include "problems/pad_shapes.h"
 #include "problems/published_regrasps.h"
 #include "tests/support/random.h"
 
@@ -37,6 +38,23 @@ inline Scene random_law_scene(Random& random) {
   for (auto& pusher : scene.pushers) pusher.friction = random.in(0.0, 1.2);
   if (random.chance(0.2)) return with_soft_points(scene);
   return random.chance(0.3) ? with_square_pads(scene) : scene;
+}
+
+/// The same with pads of any shape that are no discs: rectangles, lines, polygons.
+inline Scene random_shape_scene(Random& random) {
+  Scene scene = random_law_scene(random);
+  scene.gripper.pad = DiscPad{0.01};
+  const double ratio = random.log_in(0.05, 1.0);
+  const int kind = random.below(4);
+  if (kind == 0) {
+    scene.gripper.pad = LinePad{random.in(0.01, 0.03), random.in(0.0, 3.0)};
+  } else if (kind == 1) {
+    scene = with_pads(scene, *pad_of_shape("half_disc"));
+  } else {
+    scene.gripper.pad =
+        RectanglePad{{0.016 * std::sqrt(ratio), 0.016 / std::sqrt(ratio)}};
+  }
+  return scene;
 }
 
 /// Slack of an instant that the pads themselves decide, as whole plans are checked: rings

@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/ring_pads.h"
 #include "tests/planner/law_cases.h"
 
 namespace prehensile {
@@ -18,93 +17,8 @@ using testing::Random;
 using testing::random_kappa;
 using testing::random_law_scene;
 using testing::slack_of_pads;
-using testing::with_square_pads;
 
 constexpr double kPi = std::numbers::pi;
-
-/// Sums the pads' friction for the motion (e, omega) at this angle of the object, over F.
-struct Drag {
-  double along, across, moment;
-};
-Drag drag_of(const Model& model, double theta, const Vec2& e, double omega) {
-  const ContactPoints points = model.region.at(pose_from_finger({0.0, 0.0}, theta));
-  const Vec2 e_H = rotated(theta, e);
-  Vec2 force = Vec2::Zero();
-  double moment = 0.0;
-  for (int j = 0; j < points.count; ++j) {
-    const Vec2 r(points.x[j], points.y[j]);
-    const Vec2 slip = e_H + omega * perp(r);
-    const Vec2 f = points.weight[j] * slip.normalized();
-    force += f;
-    moment += cross(r, f);
-  }
-  return {force.dot(e_H), std::abs(cross(e_H, force)), moment};
-}
-
-/// Whether a cell holds a drag. Cells of kappa and -kappa have the same sigma.
-bool is_held(const PadSection& section, const Drag& drag, double kappa, double c) {
-  const double sigma = std::hypot(1.0, kappa);
-  const double turning = drag.moment / (c * drag.along) / sigma;
-  return std::any_of(section.cells.begin(), section.cells.end(),
-                     [&](const SectionCell& cell) {
-                       return sigma >= cell.sigma_low && sigma <= cell.sigma_high &&
-                              drag.along * sigma >= cell.drag_low &&
-                              drag.along * sigma <= cell.drag_high &&
-                              drag.across / drag.along <= cell.deviation + 1e-9 &&
-                              turning >= cell.turning_low && turning <= cell.turning_high;
-                     });
-}
-
-TEST(PadSection, HoldsTheFrictionBetweenItsSamples) {
-  Random random(1);
-  for (const int points : {16, 64}) {
-    const Model model =
-        prepare(with_square_pads(published_square(0)), {.points_per_pad = points});
-    const PadSection section = pad_section(model);
-    ASSERT_FALSE(section.cells.empty());
-    for (int i = 0; i < 20'000; ++i) {
-      const double kappa = random_kappa(random);
-      const Drag drag = drag_of(model, random.in(-kPi, kPi), {1.0, 0.0}, kappa / model.c);
-      EXPECT_TRUE(is_held(section, drag, kappa, model.c)) << points << " " << kappa;
-    }
-  }
-}
-
-/// The points of a disc at so many angles of the object that they fill their circles.
-Drag spread_drag(const Model& model, double kappa) {
-  constexpr int kAngles = 2000;
-  Drag mean{};
-  for (int k = 0; k < kAngles; ++k) {
-    const Drag drag =
-        drag_of(model, 2.0 * kPi * (k + 0.5) / kAngles, {1.0, 0.0}, kappa / model.c);
-    mean.along += drag.along / kAngles;
-    mean.moment += drag.moment / kAngles;
-  }
-  return mean;
-}
-
-TEST(PadSection, OfADiscHoldsTheFrictionOfItsCircles) {
-  Random random(4);
-  for (const int points : {8, 16, 64}) {
-    for (const double edge_load : {0.0, 1.0}) {
-      Scene scene = published_square(0);
-      scene.gripper.pressure.edge_load = edge_load;
-      const Model model = prepare(scene, {.points_per_pad = points});
-      const PadSection section = pad_section(model);
-      for (int i = 0; i < 40; ++i) {
-        const double kappa = random_kappa(random);
-        const Drag drag = spread_drag(model, kappa);
-        const RingFriction ring =
-            ring_friction(model.region.whole(), model.c, std::atan(std::abs(kappa)));
-        // Close to a circle the mean of the samples is good to its spacing.
-        EXPECT_NEAR(ring.along, drag.along, 2e-3) << kappa;
-        EXPECT_NEAR(std::copysign(ring.moment, kappa), drag.moment, 2e-3 * model.c);
-        const Drag exact{ring.along, 0.0, std::copysign(ring.moment, kappa)};
-        EXPECT_TRUE(is_held(section, exact, kappa, model.c)) << kappa;
-      }
-    }
-  }
-}
 
 struct Tally {
   int sticking = 0, edges_near = 0, ends_near = 0, turns_near = 0;

@@ -1,0 +1,13 @@
+/// The friction of pads of points that are not round, as boxes around samples. Internal
+/// to the planner.
+#pragma once
+
+#include "mechanics/model.h"
+#include "planner/pad_section.h"
+
+namespace prehensile {
+
+/// As `pad_section` has it of such pads; `c` is their torque radius [m].
+PadSection section_of_points(const ContactPoints& points, double c);
+
+}  // namespace prehensile

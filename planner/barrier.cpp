@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
-#include <numeric>
+#include <numbers>
 #include <optional>
-#include <queue>
-#include <tuple>
 #include <vector>
 
-#include "planner/free_directions.h"
+#include "planner/cheat_field.h"
 #include "planner/goal_cover.h"
 #include "planner/local_law.h"
 #include "planner/place_slacks.h"
@@ -26,11 +25,13 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Of the grids that are tried, over the longer side of the object.
-constexpr std::array kNodesPerSide = {48, 96};
+constexpr std::array kNodesPerSide = {48, 96, 192, 384};
 constexpr std::array kNodesPerSideWhereClipped = {96, 192};
 
-/// Straight pieces of a way lead to the nodes up to so many rows or columns away.
-constexpr int kStride = 10;
+/// Nodes that are looked at in all, in the order of their cost: more than were needed for
+/// any barrier that was found.
+constexpr std::int64_t kMostNodes = 250'000;
+constexpr std::int64_t kMostNodesWhereClipped = 600'000;
 
 /// By so much more than what sticks the field lets a way turn for nothing: its
 /// pieces have few directions, and what sticks changes from node to node. Tried in order.
@@ -40,7 +41,8 @@ constexpr std::array kFreelyWhereClipped = {0.06, 0.0};
 /// Where the face clips the discs: so much slack, over F, may be missing. Tried in order.
 constexpr std::array kAllowed = {0.06, 0.03, 0.015, 0.008};
 
-/// Levels of the field that are tried, as shares of its value at the goal.
+/// Levels of the field that are tried, as shares of its values at the goal and on the
+/// border of what the tolerances leave around it.
 constexpr std::array kLevels = {0.5, 0.25, 0.75};
 
 /// A field with less at the goal [spacings of the grid] shows no barrier.
@@ -116,152 +118,35 @@ class LawfulPads {
   const Model& model_;
 };
 
-using Stopped = std::function<bool()>;
-using FreeAt = std::function<FreeDirections(const Vec2&)>;
-
-/// Where a straight piece of a way is judged. What sticks changes much between places
-/// where the face clips the pads.
-enum class Judged {
-  kWhereItBegins,
-  kAtBothEnds,  ///< as where it costs less: a long one leaps across what nothing crosses
-  kAllAlong,    ///< each of its parts as at its ends
+/// Of some angles of the goal set, whose places are no closer than `spacing`: the places
+/// without tolerances, and the border of what the tolerances leave around them.
+struct GoalSample {
+  std::vector<Vec2> middle, border;
 };
 
-/// What ways of the finger axis from the start cost: the part of them across what sticks.
-class CheatField {
- public:
-  CheatField(const Model& model, int nodes_per_side, FreeAt free_at,
-             const Stopped& stopped)
-      : stopped_(stopped),
-        grid_(PlaceGrid::over(model.pad_face, nodes_per_side)),
-        free_at_(std::move(free_at)),
-        free_(static_cast<std::size_t>(grid_.count())) {
-    for (int i = -kStride; i <= kStride; ++i) {
-      for (int j = -kStride; j <= kStride; ++j) {
-        if (std::gcd(i, j) != 1) continue;
-        const Vec2 way = grid_.spacing * Vec2(i, j);
-        steps_.push_back({i, j, way.norm(), angle_of(way)});
-      }
+GoalSample sample_of(const Goal& goal, double spacing) {
+  constexpr int kPerSide = 6;
+  const bool square = goal.test == GoalTest::kPerCoordinate;
+  GoalSample sample;
+  for_all_goal_angles(goal, [&](double theta, double) {
+    const Vec2 middle = goal_place(goal, theta);
+    if (!sample.middle.empty() && (middle - sample.middle.back()).norm() < spacing) {
+      return true;
     }
-  }
-
-  const PlaceGrid& grid() const { return grid_; }
-
-  /// The cost at each node, as far as it is below that of the goal, which receives the
-  /// least of its places: the rest keep that. `of_goal` is infinite if it was stopped.
-  std::vector<double> costs(const Vec2& start, const std::vector<Vec2>& goals,
-                            Judged judged, double freely, double* of_goal) {
-    std::vector<double> cost(grid_.count(), kInfinity);
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-    const auto offer = [&](int node, double value) {
-      if (value >= cost[node]) return;
-      cost[node] = value;
-      open.push({value, node});
-    };
-    const double reach = kStride * grid_.spacing;
-    const FreeDirections at_start = free_at_(start);
-    for (int node = 0; node < grid_.count(); ++node) {
-      const Vec2 way = grid_.place(node) - start;
-      if (way.norm() > reach) continue;
-      offer(node, way.norm() * at_start.cheating(angle_of(way), freely));
-    }
-    *of_goal = kInfinity;
-    while (!open.empty() && open.top().cost < *of_goal) {
-      if (stopped_ && stopped_()) {
-        *of_goal = kInfinity;
-        break;
-      }
-      const auto [value, node] = open.top();
-      open.pop();
-      if (value > cost[node]) continue;
-      const FreeDirections& free = free_of(node);
-      for (const Vec2& goal : goals) {
-        const Vec2 way = goal - grid_.place(node);
-        if (way.norm() > reach) continue;
-        const double cheating = free.cheating(angle_of(way), freely);
-        *of_goal = std::min(*of_goal, value + way.norm() * cheating);
-      }
-      const int i = grid_.column(node);
-      const int j = grid_.row(node);
-      for (const Step& step : steps_) {
-        if (!grid_.has(i + step.i, j + step.j)) continue;
-        const int next = grid_.index(i + step.i, j + step.j);
-        if (value >= cost[next]) continue;
-        offer(next, value + step.length * cheating_of(node, next, step, judged, freely));
-      }
-    }
-    for (double& value : cost) value = std::min(value, *of_goal);
-    return cost;
-  }
-
- private:
-  struct Entry {
-    double cost;
-    int node;
-    bool operator>(const Entry& other) const {
-      return std::tie(cost, node) > std::tie(other.cost, other.node);
-    }
-  };
-  struct Step {
-    int i, j;
-    double length, angle;  // [m], [rad]
-  };
-
-  /// The share of a step that leaves what sticks.
-  double cheating_of(int node, int next, const Step& step, Judged judged, double freely) {
-    if (judged == Judged::kAllAlong) return cheating_along(node, step, freely);
-    const double cheating = free_of(node).cheating(step.angle, freely);
-    if (judged == Judged::kWhereItBegins || cheating == 0.0) return cheating;
-    return std::min(cheating, free_of(next).cheating(step.angle, freely));
-  }
-
-  /// The mean along a step, of each part what it is at the end where that is less.
-  double cheating_along(int node, const Step& step, double freely) {
-    const int parts = std::max(std::abs(step.i), std::abs(step.j));
-    const auto at = [&](int k) {
-      const auto off = [&](int whole) {
-        return static_cast<int>(std::lround(static_cast<double>(k * whole) / parts));
-      };
-      const int place =
-          grid_.index(grid_.column(node) + off(step.i), grid_.row(node) + off(step.j));
-      return free_of(place).cheating(step.angle, freely);
-    };
-    double sum = 0.0;
-    double before = at(0);
-    for (int k = 1; k <= parts; ++k) {
-      const double now = at(k);
-      sum += std::min(before, now);
-      before = now;
-    }
-    return sum / parts;
-  }
-
-  const FreeDirections& free_of(int node) {
-    std::optional<FreeDirections>& free = free_[static_cast<std::size_t>(node)];
-    if (!free) free = free_at_(grid_.place(node));
-    return *free;
-  }
-
-  const Stopped& stopped_;
-  PlaceGrid grid_;
-  FreeAt free_at_;
-  std::vector<Step> steps_;
-  std::vector<std::optional<FreeDirections>> free_;  // of nodes looked at
-};
-
-/// Places of the goal set, no two closer than `spacing`.
-std::vector<Vec2> places_of(const Goal& goal, double spacing) {
-  std::vector<Vec2> places;
-  for_all_goal_places(goal, [&](const Vec2& p_OF, double) {
-    if (places.empty() || (p_OF - places.back()).norm() >= spacing) {
-      places.push_back(p_OF);
+    sample.middle.push_back(middle);
+    for (int k = 0; k < 4 * kPerSide; ++k) {
+      const double share = 2.0 * (k % kPerSide) / kPerSide - 1.0;
+      const Vec2 off =
+          square ? Vec2(1.0, share) : towards(0.25 * std::numbers::pi * share);
+      const double turn = 0.5 * std::numbers::pi * (k / kPerSide) - theta;
+      sample.border.push_back(middle + goal.position_tolerance * rotated(turn, off));
     }
     return true;
   });
-  return places;
+  return sample;
 }
 
-/// Tries levels of a field. `weak`: where the last region that was tried may be crossed.
+/// Tries levels of a field.
 class Levels {
  public:
   explicit Levels(const Model& model)
@@ -270,18 +155,28 @@ class Levels {
   /// Whether the field separates the goal from the start, if only by what it allows.
   bool separate(CheatField& field, Judged judged, double freely) {
     const double spacing = field.grid().spacing;
-    const std::vector<Vec2> goals = places_of(*model_.scene.goal, 0.25 * spacing);
-    cost_ = field.costs(start_, goals, judged, freely, &of_goal_);
-    return of_goal_ > kLeastValue * spacing && of_goal_ != kInfinity;
+    goal_ = sample_of(*model_.scene.goal, 0.25 * spacing);
+    cost_ = field.costs(start_, goal_.middle, judged, freely, &of_goal_);
+    separated_ = of_goal_ > kLeastValue * spacing && of_goal_ != kInfinity;
+    return separated_;
   }
+
+  /// Whether the field that was looked at last did.
+  bool separated() const { return separated_; }
 
   /// A level that is a barrier, or none.
   Loops barrier_of(CheatField& field, Judged judged, double freely) {
     if (!separate(field, judged, freely)) return {};
-    for (const double share : kLevels) {
-      Loops region =
-          loops_below(field.grid(), cost_, share * of_goal_, 0.1 * field.grid().spacing);
-      if (verify_barrier(model_, region, nullptr, &weak_)) return region;
+    double of_border = of_goal_;
+    for (const Vec2& place : goal_.border) {
+      of_border = std::min(of_border, field.grid().interpolated(cost_, place));
+    }
+    for (const double value : {of_goal_, of_border}) {
+      for (const double share : kLevels) {
+        Loops region =
+            loops_below(field.grid(), cost_, share * value, 0.1 * field.grid().spacing);
+        if (verify_barrier(model_, region, nullptr, &weak_)) return region;
+      }
     }
     return {};
   }
@@ -289,13 +184,15 @@ class Levels {
  private:
   const Model& model_;
   Vec2 start_;
+  GoalSample goal_;
   std::vector<double> cost_;
   double of_goal_ = 0.0;
-  std::optional<Vec2> weak_;
+  bool separated_ = false;
+  std::optional<Vec2> weak_;  // where the last region that was tried may be crossed
 };
 
-Loops barrier_of_whole_pads(const Model& model, const FreeAt& free_at,
-                            const Stopped& stopped) {
+Loops barrier_of_whole_pads(const Model& model, const CheatField::FreeAt& free_at,
+                            const CheatField::Stopped& stopped) {
   Levels levels(model);
   for (const int nodes : kNodesPerSide) {
     CheatField field(model, nodes, free_at, stopped);
@@ -303,11 +200,12 @@ Loops barrier_of_whole_pads(const Model& model, const FreeAt& free_at,
       Loops barrier = levels.barrier_of(field, Judged::kWhereItBegins, freely);
       if (!barrier.empty()) return barrier;
     }
+    if (!levels.separated()) break;
   }
   return {};
 }
 
-Loops barrier_of_clipped_discs(const Model& model, const Stopped& stopped) {
+Loops barrier_of_clipped_discs(const Model& model, const CheatField::Stopped& stopped) {
   PlaceSlacks slacks(model);
   Levels levels(model);
   constexpr std::array kWays = {Judged::kAtBothEnds, Judged::kAllAlong};
@@ -342,21 +240,26 @@ Loops barrier_of_clipped_discs(const Model& model, const Stopped& stopped) {
 
 }  // namespace
 
-Loops find_barrier(const Model& model, const Stopped& stopped) {
+Loops find_barrier(const Model& model, const std::function<bool()>& stopped) {
   const Goal& goal = *model.scene.goal;
   if (!goal.x || !goal.y) return {};
-  if (has_clipped_discs(model)) {
-    return has_clipped_law(model) ? barrier_of_clipped_discs(model, stopped) : Loops{};
+  const bool clips = has_clipped_discs(model);
+  std::int64_t left = clips ? kMostNodesWhereClipped : kMostNodes;
+  const CheatField::Stopped or_spent = [&] {
+    return left-- <= 0 || (stopped && stopped());
+  };
+  if (clips) {
+    return has_clipped_law(model) ? barrier_of_clipped_discs(model, or_spent) : Loops{};
   }
   if (!LocalLaw(model).is_known()) return {};
   if (model.has_soft_points() || has_ring_pads(model)) {
     const RoundPads pads(model);
     return barrier_of_whole_pads(
-        model, [&](const Vec2& place) { return pads.free_at(place); }, stopped);
+        model, [&](const Vec2& place) { return pads.free_at(place); }, or_spent);
   }
   const LawfulPads pads(model);
   return barrier_of_whole_pads(
-      model, [&](const Vec2& place) { return pads.free_at(place); }, stopped);
+      model, [&](const Vec2& place) { return pads.free_at(place); }, or_spent);
 }
 
 }  // namespace prehensile

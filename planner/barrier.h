@@ -18,7 +18,7 @@ namespace prehensile {
 /// border is cheap to reach: a field says by how much a way from the start has to leave
 /// what the laws allow (the part of it across the allowed directions [m]), and its levels
 /// are tried. Only for pads with a law at every place (local_law.h, clipped_law.h), and
-/// goals that fix the place. None when `stopped` says so in between.
+/// goals that fix the place. None when `stopped` says so in between. The work is limited.
 Loops find_barrier(const Model& model, const std::function<bool()>& stopped = {});
 
 /// Whether the region holds the start and not the goal, and no push leaves it: `why`

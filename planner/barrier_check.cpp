@@ -24,6 +24,11 @@ constexpr std::size_t kMostVertices = 2000;
 constexpr int kMostCuts = 12;
 constexpr int kMostTurns = 8;
 
+/// Squares of places of the goal are cut into quarters so often where the region is near.
+constexpr int kMostGoalCuts = 5;
+
+constexpr double kRounding = 1e-9;  // [m] of places
+
 /// Of the friction's power: what a fall has to leave, for a disc of points resists a
 /// little more or less as it turns; a clipped one more so.
 constexpr double kUneven = 0.02;
@@ -115,13 +120,44 @@ double reach_of(const PlanarGrasp& grasp) {
   return reach;
 }
 
+/// Whether a square of places [m], each up to `around` off, is outside the region: it is
+/// cut where it comes near.
+bool is_outside(const Loops& region, const Vec2& middle, const Vec2& half_edge,
+                double around, int cuts) {
+  const double depth = depth_in_region(region, middle);
+  if (depth < -(std::numbers::sqrt2 * half_edge.norm() + around)) return true;
+  if (depth > -around || cuts == 0) return false;
+  const Vec2 quarter = 0.5 * half_edge;
+  for (int k = 0; k < 4; ++k) {
+    const Vec2 corner = rotated(0.5 * std::numbers::pi * k, quarter + perp(quarter));
+    if (!is_outside(region, middle + corner, quarter, around, cuts - 1)) return false;
+  }
+  return true;
+}
+
+/// Whether every place of the goal set is outside the region.
+bool goal_is_outside(const Loops& region, const Goal& goal) {
+  const double distance = Vec2(*goal.x, *goal.y).norm();
+  const double tolerance = goal.position_tolerance;
+  return for_all_goal_angles(goal, [&](double theta, double half_step) {
+    const Vec2 middle = goal_place(goal, theta);
+    const double around = half_step * distance + kRounding;
+    if (goal.test == GoalTest::kWeightedSum) {
+      return depth_in_region(region, middle) < -(tolerance + around);
+    }
+    return is_outside(region, middle, rotated(-theta, Vec2(tolerance, 0.0)), around,
+                      kMostGoalCuts);
+  });
+}
+
 /// The contact's pushes end where the grasp alone does not hold the object in its
 /// attitude, whatever its angle. The excess of gravity's power in one twist is affine in
 /// the place, so both ends decide for all of the piece. Of pads that are not round no
 /// point comes farther than its radius times half a step from where one of the angles has
 /// it.
 bool falls_all_along(const Model& model, const PushContact& contact, const Piece& piece) {
-  const bool is_round = model.has_soft_points() || has_ring_pads(model);
+  const bool is_round =
+      model.has_soft_points() || has_ring_pads(model) || has_clipped_discs(model);
   const int angles = is_round ? 1 : kAnglesOfPads;
   const double half_step = is_round ? 0.0 : std::numbers::pi / kAnglesOfPads;
   const auto falls_at = [&](double angle) {
@@ -267,9 +303,7 @@ bool verify_barrier(const Model& model, const Loops& region, std::string* why,
   if (depth_in_region(region, start) <= 0.0) {
     return refuse(why, "the start is not in the region");
   }
-  if (!for_all_goal_places(goal, [&](const Vec2& p_OF, double radius) {
-        return depth_in_region(region, p_OF) < -radius;
-      })) {
+  if (!goal_is_outside(region, goal)) {
     return refuse(why, "a pose of the goal is in the region");
   }
   for (const Piece& piece : pieces_of(region, weak && *weak ? &**weak : nullptr)) {

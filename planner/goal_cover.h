@@ -37,14 +37,20 @@ bool for_all_goal_angles(const Goal& goal, const Test& holds) {
   return true;
 }
 
+/// Where the finger axis is in O at an angle of O in H, of a goal that fixes x and y,
+/// before tolerances [m].
+inline Vec2 goal_place(const Goal& goal, double theta) {
+  return -rotated(-theta, {*goal.x, *goal.y});
+}
+
 /// The same of every place p_OF [m] of a goal that fixes x and y: `holds(p_OF, radius)`,
 /// radius [m] being how far a place of the goal set may be from those looked at.
 template <class Test>
 bool for_all_goal_places(const Goal& goal, const Test& holds) {
   const Vec2 position{*goal.x, *goal.y};
   return for_all_goal_angles(goal, [&](double theta, double half_step) {
-    const Vec2 p_OF = -rotated(-theta, position);
-    return holds(p_OF, place_tolerance(goal) + half_step * position.norm() + 1e-9);
+    return holds(goal_place(goal, theta),
+                 place_tolerance(goal) + half_step * position.norm() + 1e-9);
   });
 }
 

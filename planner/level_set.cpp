@@ -103,6 +103,26 @@ int PlaceGrid::nearest(const Vec2& p) const {
                std::clamp(static_cast<int>(std::lround(at.y())), 0, ny - 1));
 }
 
+std::array<PlaceGrid::Share, 4> PlaceGrid::around(const Vec2& p) const {
+  const Vec2 at = (p - low) / spacing;
+  const int i = std::clamp(static_cast<int>(at.x()), 0, nx - 2);
+  const int j = std::clamp(static_cast<int>(at.y()), 0, ny - 2);
+  const double x = std::clamp(at.x() - i, 0.0, 1.0);
+  const double y = std::clamp(at.y() - j, 0.0, 1.0);
+  return {{{index(i, j), (1.0 - x) * (1.0 - y)},
+           {index(i + 1, j), x * (1.0 - y)},
+           {index(i, j + 1), (1.0 - x) * y},
+           {index(i + 1, j + 1), x * y}}};
+}
+
+double PlaceGrid::interpolated(const std::vector<double>& values, const Vec2& p) const {
+  double sum = 0.0;
+  for (const auto& [node, share] : around(p)) {
+    if (share > 0.0) sum += share * values[static_cast<std::size_t>(node)];
+  }
+  return sum;
+}
+
 Loops loops_below(const PlaceGrid& grid, std::vector<double> values, double level,
                   double tolerance) {
   for (int node = 0; node < grid.count(); ++node) {

@@ -2,6 +2,7 @@
 /// to the planner.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "scene/frames.h"
@@ -28,6 +29,14 @@ struct PlaceGrid {
   int row(int node) const { return node % ny; }
   Vec2 place(int node) const { return low + spacing * Vec2(column(node), row(node)); }
   bool has(int i, int j) const { return i >= 0 && j >= 0 && i < nx && j < ny; }
+  /// The nodes around a place and their shares of what is linear in x and y between them;
+  /// as on the border beyond it.
+  struct Share {
+    int node;
+    double share;
+  };
+  std::array<Share, 4> around(const Vec2& p) const;
+  double interpolated(const std::vector<double>& values, const Vec2& p) const;
   /// The node next to a place, which has to be within the grid.
   int nearest(const Vec2& p) const;
 };

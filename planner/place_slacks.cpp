@@ -122,21 +122,12 @@ PlaceSlacks::PlaceSlacks(const Model& model)
 }
 
 PlaceSlacks::Profile PlaceSlacks::at(const Vec2& p_OF) {
-  const Vec2 at = (p_OF - grid_.low) / grid_.spacing;
-  const int i = std::clamp(static_cast<int>(at.x()), 0, grid_.nx - 2);
-  const int j = std::clamp(static_cast<int>(at.y()), 0, grid_.ny - 2);
-  const double x = std::clamp(at.x() - i, 0.0, 1.0);
-  const double y = std::clamp(at.y() - j, 0.0, 1.0);
   Profile sum{};
-  const auto add = [&](int column, int row, double share) {
-    if (share == 0.0) return;
-    const Profile& profile = at_node(grid_.index(column, row));
+  for (const auto& [node, share] : grid_.around(p_OF)) {
+    if (share == 0.0) continue;
+    const Profile& profile = at_node(node);
     for (int k = 0; k < kDirections; ++k) sum[k] += share * profile[k];
-  };
-  add(i, j, (1.0 - x) * (1.0 - y));
-  add(i + 1, j, x * (1.0 - y));
-  add(i, j + 1, (1.0 - x) * y);
-  add(i + 1, j + 1, x * y);
+  }
   return sum;
 }
 

@@ -92,6 +92,32 @@ TEST(Barrier, HoldsForItsProblemOnly) {
   EXPECT_TRUE(refused(other));
 }
 
+/// Tolerances of each coordinate leave a square, whose corners are farther off than its
+/// sides: what comes no nearer than these is outside.
+TEST(Barrier, KnowsHowFarTheTolerancesOfAGoalReach) {
+  Scene scene = walled_square();
+  scene.start.X_HO = pose_from_finger({-0.02, 0.0}, 0.0);
+  scene.goal = goal_at({0.0, 0.0}, 0.0);
+  scene.goal->test = GoalTest::kPerCoordinate;
+  scene.goal->angle_tolerance = 1e-3;
+  const double tolerance = scene.goal->position_tolerance;
+  const Model model = prepare(scene);
+  const auto holds_goal = [&](const Vec2& normal, double distance) {
+    const Vec2 along = perp(normal), at = -distance * normal;
+    const Loops region = {{at - 0.1 * along, at + 0.1 * along,
+                           at + 0.1 * along - 0.1 * normal,
+                           at - 0.1 * along - 0.1 * normal}};
+    std::string why;
+    EXPECT_FALSE(verify_barrier(model, region, &why));
+    return why == "a pose of the goal is in the region";
+  };
+  EXPECT_FALSE(holds_goal({1.0, 0.0}, 1.05 * tolerance));
+  EXPECT_TRUE(holds_goal({1.0, 0.0}, 0.95 * tolerance));
+  const Vec2 diagonal = Vec2(1.0, 1.0).normalized();
+  EXPECT_FALSE(holds_goal(diagonal, 1.48 * tolerance));
+  EXPECT_TRUE(holds_goal(diagonal, 1.35 * tolerance));
+}
+
 TEST(Barrier, RefusesRegionsThatAreNone) {
   const Model model = prepare(lift_by_one_wall());
   const Loops region = find_barrier(model);

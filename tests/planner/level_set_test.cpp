@@ -89,5 +89,17 @@ TEST(LoopsBelow, OfRandomFieldsNeitherCrossNorLieWrong) {
   }
 }
 
+TEST(PlaceGrid, InterpolatesBetweenItsNodes) {
+  PlaceGrid grid{.low = {-1.0, 2.0}, .spacing = 0.5, .nx = 4, .ny = 3};
+  const auto value = [](const Vec2& p) { return 3.0 * p.x() - p.y() + p.x() * p.y(); };
+  std::vector<double> values;
+  for (int node = 0; node < grid.count(); ++node)
+    values.push_back(value(grid.place(node)));
+  for (const Vec2& p : {Vec2(-1.0, 2.0), Vec2(-0.7, 2.9), Vec2(0.5, 3.0)}) {
+    EXPECT_NEAR(grid.interpolated(values, p), value(p), 1e-12);
+  }
+  EXPECT_EQ(grid.interpolated(values, {9.0, 9.0}), value({0.5, 3.0}));
+}
+
 }  // namespace
 }  // namespace prehensile

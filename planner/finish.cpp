@@ -69,8 +69,8 @@ std::vector<Plan> polished(const SearchModel& search, const Limits& limits, Work
 
 }  // namespace
 
-std::string finish(const SearchModel& search, const PlanOptions& options,
-                   const Limits& limits, Work& work, Plan& plan) {
+Finished finish(const SearchModel& search, const PlanOptions& options,
+                const Limits& limits, Work& work, Plan& plan) {
   if (work.meter) work.meter->enter("polish");
   std::string why;
   std::vector<Plan> failed;
@@ -91,15 +91,15 @@ std::string finish(const SearchModel& search, const PlanOptions& options,
   }
   if (passes(found)) return {};
   const std::string fault = why;
-  if (!options.polish) return fault;
+  if (!options.polish) return {fault};
   if (work.meter) work.meter->enter("repair");
   const std::vector<Plan> rejected = failed;
   for (const auto way : {repair_as_trajectory, repair}) {
     for (Plan one : rejected) {
-      if (way(search, limits, work, one) && passes(one)) return {};
+      if (way(search, limits, work, one) && passes(one)) return {.is_repaired = true};
     }
   }
-  return fault;
+  return {fault};
 }
 
 }  // namespace prehensile

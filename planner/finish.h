@@ -7,11 +7,16 @@
 
 namespace prehensile {
 
+struct Finished {
+  std::string
+      fault;  ///< why no version passes, of the plan as it was found; empty if one does
+  bool is_repaired = false;
+};
+
 /// Polishes a plan, loosens the grip where the scene lets it, and puts it to the exact
 /// check: the cheapest version first, as it was found last; then, if all fail, each of
-/// them repaired. `plan` becomes the first that passes. Returns why none does, of the
-/// plan as it was found; empty if one passes.
-std::string finish(const SearchModel& search, const PlanOptions& options,
-                   const Limits& limits, Work& work, Plan& plan);
+/// them repaired. `plan` becomes the first that passes.
+Finished finish(const SearchModel& search, const PlanOptions& options,
+                const Limits& limits, Work& work, Plan& plan);
 
 }  // namespace prehensile

@@ -85,6 +85,7 @@ double uncounted_drift(const Model& model, const Plan& plan) {
 struct Found {
   Plan plan;
   double drift = 0.0;  ///< [m] see above
+  bool is_repaired = false;
 };
 
 /// One search, finished and checked.
@@ -115,9 +116,11 @@ Plan attempt(const Model& model, const PlanOptions& options, const Clearance& cl
   found.drift = uncounted_drift(model, plan);
   if (plan.status == PlanStatus::kReachedGoal) {
     found.plan = plan;
-    const std::string fault = finish(search, options, limits, work, plan);
-    if (!fault.empty())
-      set_undecided(plan, "the plan found fails its exact check: " + fault);
+    const Finished finished = finish(search, options, limits, work, plan);
+    found.is_repaired = finished.is_repaired;
+    if (!finished.fault.empty()) {
+      set_undecided(plan, "the plan found fails its exact check: " + finished.fault);
+    }
     if (plan.usable() && !reaches(*model.scene.goal, plan.goal)) {
       set_undecided(plan, "the plan found ends beside the goal");
     }
@@ -133,9 +136,13 @@ constexpr double kClearOfBorder = 0.2e-3;
 /// do to an object that turns about a point of the pusher is known along its way only.
 constexpr std::array kUnusedFriction = {0.1, 0.25};
 
+/// A plan that is repaired and costs so much and more need not be the cheapest by far.
+constexpr double kDearRepair = 5.0;
+
 /// A plan that fails its exact check is searched again, first farther from slipping by
 /// what its detours carry the finger axis off, then with double the margin, then with
-/// less friction than there is.
+/// less friction than there is. A dear one that passes once it is repaired is searched
+/// again once, and the cheaper is kept.
 Plan search_and_check(const Model& model, const PlanOptions& options,
                       const Margin& margin, Work& work, Found& found) {
   Plan plan = attempt(model, options, {margin}, work, found);
@@ -145,11 +152,20 @@ Plan search_and_check(const Model& model, const PlanOptions& options,
     other.instants += plan.instants;
     if (!other.usable()) {
       plan.instants = other.instants;
-      plan.message += how + other.message;
+      if (!plan.usable()) plan.message += how + other.message;
       return;
     }
-    plan = std::move(other);
+    account(model, other);
+    plan.instants = other.instants;
+    if (!plan.usable() || other.cost < plan.cost) plan = std::move(other);
   };
+  if (plan.usable()) {
+    account(model, plan);
+    if (found.is_repaired && plan.cost >= kDearRepair) {
+      again({margin, std::max(1.5 * found.drift, kClearOfBorder)}, "");
+    }
+    return plan;
+  }
   if (failed_check() && found.drift > 0.0) {
     again({margin, 1.5 * found.drift}, "; with more room for drift: ");
   }

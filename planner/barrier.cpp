@@ -213,7 +213,8 @@ Loops barrier_of_clipped_discs(const Model& model, const CheatField::Stopped& st
     const auto field_allowing = [&](double allowed) {
       return CheatField(
           model, nodes,
-          [&slacks, allowed](const Vec2& place) {
+          [&, allowed](const Vec2& place) {
+            if (depth_inside(model.pad_face, place) < 0.0) return FreeDirections();
             return FreeDirections::above(slacks.at(place), -allowed);
           },
           stopped);

@@ -40,7 +40,7 @@ constexpr int kTabulated = 361;
 constexpr int kAnglesOfFinder = 5;
 
 /// Gravity counts as held where less than this of the friction is missing.
-constexpr double kNearlyHeld = 0.06;
+constexpr double kNearlyHeld = 0.12;
 
 /// What contacts ask at one place, for one motion after another.
 class Asked {
@@ -107,6 +107,20 @@ double most_over_slopes(int count, const Function& value) {
   return most;
 }
 
+/// The place of an outline that is nearest to one outside, a little way in.
+Vec2 nearest_inside(const std::vector<Vec2>& outline, const Vec2& p) {
+  constexpr double kIn = 1e-6;  // [m]
+  Vec2 nearest = outline.front();
+  for (std::size_t i = 0, before = outline.size() - 1; i < outline.size(); before = i++) {
+    const Vec2 edge = outline[i] - outline[before];
+    const double share =
+        std::clamp((p - outline[before]).dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+    const Vec2 on_edge = outline[before] + share * edge;
+    if ((on_edge - p).norm() < (nearest - p).norm()) nearest = on_edge;
+  }
+  return nearest + kIn * (nearest - p).normalized();
+}
+
 }  // namespace
 
 PlaceSlacks::PlaceSlacks(const Model& model)
@@ -131,9 +145,16 @@ PlaceSlacks::Profile PlaceSlacks::at(const Vec2& p_OF) {
   return sum;
 }
 
+/// Nodes beside the object stand for where it is nearest, or what is between them and the
+/// first on it would seem to stick less.
 const PlaceSlacks::Profile& PlaceSlacks::at_node(int node) {
   std::optional<Profile>& profile = profiles_[static_cast<std::size_t>(node)];
-  if (!profile) profile = looked_at(grid_.place(node));
+  if (!profile) {
+    const Vec2 place = grid_.place(node);
+    const double depth = depth_inside(model_.pad_face, place);
+    const bool is_beside = depth < 0.0 && depth > -2.0 * grid_.spacing;
+    profile = looked_at(is_beside ? nearest_inside(model_.pad_face, place) : place);
+  }
   return *profile;
 }
 

@@ -12,6 +12,7 @@
 
 #include "planner/cheat_field.h"
 #include "planner/goal_cover.h"
+#include "planner/half_planes.h"
 #include "planner/local_law.h"
 #include "planner/place_slacks.h"
 #include "planner/ring_kappas.h"
@@ -45,11 +46,16 @@ constexpr std::array kAllowed = {0.06, 0.03, 0.015, 0.008};
 /// border of what the tolerances leave around it.
 constexpr std::array kLevels = {0.5, 0.25, 0.75};
 
+/// Straight lines that are tried, and how close the places of the goal are that they keep
+/// clear of [m].
+constexpr int kMostLines = 4;
+constexpr double kGoalSpacing = 2e-4;
+
 /// A field with less at the goal [spacings of the grid] shows no barrier.
 constexpr double kLeastValue = 0.5;
 
-/// Where pushes of a contact end for lack of grip the check wants a fall for sure: so
-/// much of what the grip holds may be missing before the field takes it for one.
+/// Over pads of other shapes a contact's pushes count as ended for lack of grip only
+/// where more than this share of it is missing: the check wants to be sure.
 constexpr double kNearlyHeld = 0.05;
 
 /// Half of the directions that are looked at as one where the law says what sticks [rad].
@@ -138,7 +144,8 @@ GoalSample sample_of(const Goal& goal, double spacing) {
       const double share = 2.0 * (k % kPerSide) / kPerSide - 1.0;
       const Vec2 off =
           square ? Vec2(1.0, share) : towards(0.25 * std::numbers::pi * share);
-      const double turn = 0.5 * std::numbers::pi * (k / kPerSide) - theta;
+      const int side = k / kPerSide;
+      const double turn = 0.5 * std::numbers::pi * side - theta;
       sample.border.push_back(middle + goal.position_tolerance * rotated(turn, off));
     }
     return true;
@@ -163,6 +170,15 @@ class Levels {
 
   /// Whether the field that was looked at last did.
   bool separated() const { return separated_; }
+
+  /// A straight line that is a barrier, or none: for what is free at a place.
+  Loops straight_barrier(const CheatField::FreeAt& free_at) const {
+    const GoalSample goal = sample_of(*model_.scene.goal, kGoalSpacing);
+    for (Loops& region : half_planes(model_, goal.border, free_at, kMostLines)) {
+      if (verify_barrier(model_, region, nullptr)) return std::move(region);
+    }
+    return {};
+  }
 
   /// A level that is a barrier, or none.
   Loops barrier_of(CheatField& field, Judged judged, double freely) {
@@ -194,6 +210,8 @@ class Levels {
 Loops barrier_of_whole_pads(const Model& model, const CheatField::FreeAt& free_at,
                             const CheatField::Stopped& stopped) {
   Levels levels(model);
+  Loops straight = levels.straight_barrier(free_at);
+  if (!straight.empty()) return straight;
   for (const int nodes : kNodesPerSide) {
     CheatField field(model, nodes, free_at, stopped);
     for (const double freely : kFreely) {
@@ -219,7 +237,7 @@ Loops barrier_of_clipped_discs(const Model& model, const CheatField::Stopped& st
           },
           stopped);
     };
-    // What the strictest field does not separate no other does.
+    // What the strictest field does not separate the others would not either.
     CheatField strictest = field_allowing(kAllowed.back());
     if (std::ranges::none_of(kWays, [&](Judged judged) {
           return levels.separate(strictest, judged, kFreelyWhereClipped.back());

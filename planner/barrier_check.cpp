@@ -137,11 +137,11 @@ bool is_outside(const Loops& region, const Vec2& middle, const Vec2& half_edge,
 
 /// Whether every place of the goal set is outside the region.
 bool goal_is_outside(const Loops& region, const Goal& goal) {
-  const double distance = Vec2(*goal.x, *goal.y).norm();
   const double tolerance = goal.position_tolerance;
+  const double farthest = Vec2(*goal.x, *goal.y).norm() + std::numbers::sqrt2 * tolerance;
   return for_all_goal_angles(goal, [&](double theta, double half_step) {
     const Vec2 middle = goal_place(goal, theta);
-    const double around = half_step * distance + kRounding;
+    const double around = half_step * farthest + kRounding;
     if (goal.test == GoalTest::kWeightedSum) {
       return depth_in_region(region, middle) < -(tolerance + around);
     }

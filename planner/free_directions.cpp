@@ -12,15 +12,20 @@ FreeDirections FreeDirections::above(const std::array<double, kLookedAt>& values
           }};
 }
 
-double FreeDirections::cheating(double angle, double freely) const {
+double FreeDirections::distance(double angle) const {
   if (all_) return 0.0;
-  double beyond = std::numbers::pi / 2.0;
+  double least = std::numbers::pi;
   for (const Arc& arc : arcs_) {
     const double half = 0.5 * (arc.to - arc.from);
     const double off =
         std::abs(std::remainder(angle - arc.from - half, 2.0 * std::numbers::pi));
-    beyond = std::min(beyond, off - half - freely);
+    least = std::min(least, off - half);
   }
+  return std::max(0.0, least);
+}
+
+double FreeDirections::cheating(double angle, double freely) const {
+  const double beyond = std::min(0.5 * std::numbers::pi, distance(angle) - freely);
   return beyond <= 1e-9 ? 0.0 : std::sin(beyond);
 }
 

@@ -44,6 +44,9 @@ class FreeDirections {
   /// Those with a value of at least `least`, which is linear between those looked at.
   static FreeDirections above(const std::array<double, kLookedAt>& values, double least);
 
+  /// Angle of a direction to the next that is free [rad]; pi if none is.
+  double distance(double angle) const;
+
   /// Sine of the angle of a direction to the next that is free, or `freely` beside one.
   double cheating(double angle, double freely) const;
 

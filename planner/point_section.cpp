@@ -215,8 +215,7 @@ std::vector<double> kappas_of(const std::vector<Pivot>& pivots) {
   for (const Pivot& pivot : pivots) kappas.push_back(pivot.kappa);
   std::ranges::sort(kappas);
   const auto same = [](double a, double b) { return b - a < 1e-12 * std::abs(b); };
-  const auto rest = std::ranges::unique(kappas, same);
-  kappas.erase(rest.begin(), rest.end());
+  kappas.erase(std::unique(kappas.begin(), kappas.end(), same), kappas.end());
   return kappas;
 }
 

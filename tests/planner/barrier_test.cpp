@@ -135,7 +135,7 @@ TEST(Barrier, RefusesRegionsThatAreNone) {
   other[0][1].x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(refused(other));
   other = region;
-  std::swap(other[0][0], other[0][2]);
+  std::swap(other[0][0], other[0][1]);
   EXPECT_TRUE(refused(other));
   other = region;
   for (Vec2& vertex : other[0]) vertex *= 100.0;  // the goal is in it, too

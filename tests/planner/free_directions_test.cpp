@@ -22,6 +22,8 @@ TEST(FreeDirections, CheatingIsTheSineBeyondTheNearest) {
     const FreeDirections free = FreeDirections::where(
         [&](double angle) { return std::cos(angle - middle) >= std::cos(kHalf); });
     for (double angle = -4.0; angle < 4.0; angle += 0.05) {
+      const double off = std::acos(std::clamp(std::cos(angle - middle), -1.0, 1.0));
+      EXPECT_NEAR(free.distance(angle), std::max(0.0, off - kHalf), 2e-3);
       for (const double freely : {0.0, 0.1}) {
         EXPECT_NEAR(free.cheating(angle, freely), beyond(angle, middle, kHalf, freely),
                     2e-3)
@@ -35,6 +37,8 @@ TEST(FreeDirections, OfAllAndOfNone) {
   const FreeDirections all = FreeDirections::where([](double) { return true; });
   const FreeDirections none = FreeDirections::where([](double) { return false; });
   for (double angle = -4.0; angle < 4.0; angle += 0.1) {
+    EXPECT_EQ(all.distance(angle), 0.0);
+    EXPECT_EQ(none.distance(angle), kPi);
     EXPECT_EQ(all.cheating(angle, 0.0), 0.0);
     EXPECT_EQ(none.cheating(angle, 0.0), 1.0);
     EXPECT_EQ(FreeDirections().cheating(angle, 0.3), 1.0);

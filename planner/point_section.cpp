@@ -74,7 +74,7 @@ bool alike_after(const ContactPoints& points, double angle, double size) {
 
 /// After so many quarter turns the pads are alike.
 int quarters_of(const ContactPoints& points, double size) {
-  if (alike_after(points, 0.5 * kPi, size)) return 1;
+  if (alike_at_quarter_turns(points, size)) return 1;
   return alike_after(points, kPi, size) ? 2 : 4;
 }
 
@@ -259,6 +259,10 @@ std::vector<Motions> between(const std::vector<Motions>& rows) {
 }
 
 }  // namespace
+
+bool alike_at_quarter_turns(const ContactPoints& points, double c) {
+  return alike_after(points, 0.5 * kPi, c);
+}
 
 PadSection section_of_points(const ContactPoints& points, double c) {
   PadSection section{.slow_ratio = kSlowRatio, .fast_ratio = kFastRatio};

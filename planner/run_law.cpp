@@ -6,6 +6,9 @@
 #include <limits>
 #include <numbers>
 
+#include "planner/point_section.h"
+#include "planner/ring_pads.h"
+
 namespace prehensile {
 namespace {
 
@@ -287,6 +290,9 @@ RunLaws run_laws(const Model& model, bool weightless) {
       contacts.push_back(soft_point_law(model, contact, weightless));
     }
     laws.contacts = std::move(contacts);
+    return laws;
+  }
+  if (!has_ring_pads(model) && !alike_at_quarter_turns(model.region.whole(), model.c)) {
     return laws;
   }
   const PadSection section = pad_section(model);

@@ -25,13 +25,15 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Of the grids that are tried, over the longer side of the object.
+/// Of the grids that are tried, over the longer side of the object. Over whole pads those
+/// finer than kNodesOfAll only where the one before separates the goal.
 constexpr std::array kNodesPerSide = {48, 96, 192, 384};
+constexpr int kNodesOfAll = 96;
 constexpr std::array kNodesPerSideWhereClipped = {96, 192};
 
 /// Nodes that are looked at in all, in the order of their cost: more than were needed for
-/// any barrier that was found.
-constexpr std::int64_t kMostNodes = 250'000;
+/// any barrier of the benchmark suite.
+constexpr std::int64_t kMostNodes = 150'000;
 constexpr std::int64_t kMostNodesWhereClipped = 600'000;
 
 /// By so much more than what sticks the field lets a way turn for nothing: its
@@ -61,25 +63,33 @@ constexpr double kNearlyHeld = 0.05;
 /// Half of the directions that are looked at as one where the law says what sticks [rad].
 constexpr double kHalfLooked = 1e-3;
 
+/// Directions in which a contact that the grasp holds at a place may move the finger
+/// axis; so much of the grip may be missing.
+template <class MayMove>
+FreeDirections free_where_held(const Model& model, const Vec2& place, double missing,
+                               const MayMove& may_move) {
+  if (depth_inside(model.pad_face, place) < 0.0) return {};
+  std::vector<int> held;
+  for (int k = 0; k < static_cast<int>(model.contacts.size()); ++k) {
+    const Vec2& g_O = model.contacts[k].g_O;
+    if (holding_slack(model, place, g_O, Margin::none()) >= -missing) held.push_back(k);
+  }
+  if (held.empty()) return {};
+  return FreeDirections::where([&](double angle) {
+    return std::ranges::any_of(held, [&](int k) { return may_move(k, angle); });
+  });
+}
+
 /// What sticks at a place, over soft points and round pads that are whole everywhere.
 class RoundPads {
  public:
   explicit RoundPads(const Model& model)
-      : search_(prepare_search(model, Margin::none())), model_(model) {}
+      : model_(model), search_(prepare_search(model, Margin::none())) {}
 
-  FreeDirections free_at(const Vec2& place) const {
-    if (depth_inside(model_.pad_face, place) < 0.0) return {};
-    std::vector<const StickContact*> contacts;
-    for (const SearchContact& contact : search_.contacts) {
-      const Vec2& g_O = model_.contacts[contact.contact].g_O;
-      if (holding_slack(model_, place, g_O, Margin::none()) >= 0.0) {
-        contacts.push_back(&contact.stick);
-      }
-    }
-    if (contacts.empty()) return {};
-    return FreeDirections::where([&](double angle) {
-      return std::any_of(contacts.begin(), contacts.end(), [&](const auto* contact) {
-        return sticks(*contact, place, -towards(angle));
+  FreeDirections operator()(const Vec2& place) const {
+    return free_where_held(model_, place, 0.0, [&](int contact, double angle) {
+      return std::ranges::any_of(search_.contacts, [&](const SearchContact& pushed) {
+        return pushed.contact == contact && sticks(pushed.stick, place, -towards(angle));
       });
     });
   }
@@ -92,36 +102,25 @@ class RoundPads {
     return !kappas.empty();
   }
 
-  const SearchModel search_;
   const Model& model_;
+  const SearchModel search_;
 };
 
 /// What the law lets stick at a place, over pads of other shapes, which deflect the
 /// friction by more than what the field allows for.
 class LawfulPads {
  public:
-  explicit LawfulPads(const Model& model) : law_(model), model_(model) {}
+  explicit LawfulPads(const Model& model) : model_(model), law_(model) {}
 
-  FreeDirections free_at(const Vec2& place) const {
-    if (depth_inside(model_.pad_face, place) < 0.0) return {};
-    std::vector<int> contacts;
-    for (int k = 0; k < static_cast<int>(model_.contacts.size()); ++k) {
-      const Vec2& g_O = model_.contacts[k].g_O;
-      if (holding_slack(model_, place, g_O, Margin::none()) >= -kNearlyHeld) {
-        contacts.push_back(k);
-      }
-    }
-    if (contacts.empty()) return {};
-    return FreeDirections::where([&](double angle) {
-      return std::ranges::any_of(contacts, [&](int contact) {
-        return law_.may_move(contact, {place, place}, {towards(angle), kHalfLooked});
-      });
+  FreeDirections operator()(const Vec2& place) const {
+    return free_where_held(model_, place, kNearlyHeld, [&](int contact, double angle) {
+      return law_.may_move(contact, {place, place}, {towards(angle), kHalfLooked});
     });
   }
 
  private:
-  const LocalLaw law_;
   const Model& model_;
+  const LocalLaw law_;
 };
 
 /// Of some angles of the goal set, whose places are no closer than `spacing`: the places
@@ -153,6 +152,15 @@ GoalSample sample_of(const Goal& goal, double spacing) {
   return sample;
 }
 
+/// A straight line that is a barrier, or none: for what is free at a place.
+Loops straight_barrier(const Model& model, const FreeAt& free_at) {
+  const GoalSample goal = sample_of(*model.scene.goal, kGoalSpacing);
+  for (Loops& region : half_planes(model, goal.border, free_at, kMostLines)) {
+    if (verify_barrier(model, region, nullptr)) return std::move(region);
+  }
+  return {};
+}
+
 /// Tries levels of a field.
 class Levels {
  public:
@@ -170,15 +178,6 @@ class Levels {
 
   /// Whether the field that was looked at last did.
   bool separated() const { return separated_; }
-
-  /// A straight line that is a barrier, or none: for what is free at a place.
-  Loops straight_barrier(const CheatField::FreeAt& free_at) const {
-    const GoalSample goal = sample_of(*model_.scene.goal, kGoalSpacing);
-    for (Loops& region : half_planes(model_, goal.border, free_at, kMostLines)) {
-      if (verify_barrier(model_, region, nullptr)) return std::move(region);
-    }
-    return {};
-  }
 
   /// A level that is a barrier, or none.
   Loops barrier_of(CheatField& field, Judged judged, double freely) {
@@ -207,18 +206,18 @@ class Levels {
   std::optional<Vec2> weak_;  // where the last region that was tried may be crossed
 };
 
-Loops barrier_of_whole_pads(const Model& model, const CheatField::FreeAt& free_at,
+Loops barrier_of_whole_pads(const Model& model, const FreeAt& free_at,
                             const CheatField::Stopped& stopped) {
-  Levels levels(model);
-  Loops straight = levels.straight_barrier(free_at);
+  Loops straight = straight_barrier(model, free_at);
   if (!straight.empty()) return straight;
+  Levels levels(model);
   for (const int nodes : kNodesPerSide) {
     CheatField field(model, nodes, free_at, stopped);
     for (const double freely : kFreely) {
       Loops barrier = levels.barrier_of(field, Judged::kWhereItBegins, freely);
       if (!barrier.empty()) return barrier;
     }
-    if (!levels.separated()) break;
+    if (nodes >= kNodesOfAll && !levels.separated()) break;
   }
   return {};
 }
@@ -228,24 +227,24 @@ Loops barrier_of_clipped_discs(const Model& model, const CheatField::Stopped& st
   Levels levels(model);
   constexpr std::array kWays = {Judged::kAtBothEnds, Judged::kAllAlong};
   for (const int nodes : kNodesPerSideWhereClipped) {
-    const auto field_allowing = [&](double allowed) {
-      return CheatField(
+    std::vector<CheatField> fields;  // the last is the strictest
+    fields.reserve(kAllowed.size());
+    for (const double allowed : kAllowed) {
+      fields.emplace_back(
           model, nodes,
           [&, allowed](const Vec2& place) {
             if (depth_inside(model.pad_face, place) < 0.0) return FreeDirections();
             return FreeDirections::above(slacks.at(place), -allowed);
           },
           stopped);
-    };
-    // What the strictest field does not separate the others would not either.
-    CheatField strictest = field_allowing(kAllowed.back());
+    }
+    // What the strictest does not separate the others would not either.
     if (std::ranges::none_of(kWays, [&](Judged judged) {
-          return levels.separate(strictest, judged, kFreelyWhereClipped.back());
+          return levels.separate(fields.back(), judged, kFreelyWhereClipped.back());
         })) {
       return {};
     }
-    for (const double allowed : kAllowed) {
-      CheatField field = field_allowing(allowed);
+    for (CheatField& field : fields) {
       for (const Judged judged : kWays) {
         for (const double freely : kFreelyWhereClipped) {
           Loops barrier = levels.barrier_of(field, judged, freely);
@@ -271,14 +270,9 @@ Loops find_barrier(const Model& model, const std::function<bool()>& stopped) {
     return has_clipped_law(model) ? barrier_of_clipped_discs(model, or_spent) : Loops{};
   }
   if (!LocalLaw(model).is_known()) return {};
-  if (model.has_soft_points() || has_ring_pads(model)) {
-    const RoundPads pads(model);
-    return barrier_of_whole_pads(
-        model, [&](const Vec2& place) { return pads.free_at(place); }, or_spent);
-  }
-  const LawfulPads pads(model);
-  return barrier_of_whole_pads(
-      model, [&](const Vec2& place) { return pads.free_at(place); }, or_spent);
+  return has_round_pads(model)
+             ? barrier_of_whole_pads(model, RoundPads(model), or_spent)
+             : barrier_of_whole_pads(model, LawfulPads(model), or_spent);
 }
 
 }  // namespace prehensile

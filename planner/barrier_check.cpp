@@ -156,8 +156,7 @@ bool goal_is_outside(const Loops& region, const Goal& goal) {
 /// point comes farther than its radius times half a step from where one of the angles has
 /// it.
 bool falls_all_along(const Model& model, const PushContact& contact, const Piece& piece) {
-  const bool is_round =
-      model.has_soft_points() || has_ring_pads(model) || has_clipped_discs(model);
+  const bool is_round = has_round_pads(model) || has_clipped_discs(model);
   const int angles = is_round ? 1 : kAnglesOfPads;
   const double half_step = is_round ? 0.0 : std::numbers::pi / kAnglesOfPads;
   const auto falls_at = [&](double angle) {

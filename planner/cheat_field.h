@@ -23,7 +23,6 @@ enum class Judged {
 /// What ways of the finger axis from the start cost: the part of them across what sticks.
 class CheatField {
  public:
-  using FreeAt = std::function<FreeDirections(const Vec2&)>;
   using Stopped = std::function<bool()>;
 
   /// `free_at` says what sticks at a place. `stopped`, asked at each node, must outlive

@@ -8,9 +8,9 @@
 namespace prehensile {
 
 struct Finished {
-  std::string
-      fault;  ///< why no version passes, of the plan as it was found; empty if one does
-  bool is_repaired = false;
+  /// Why no version passes, of the plan as it was found; empty if one does.
+  std::string fault;
+  bool is_repaired = false;  ///< none but a repaired one does
 };
 
 /// Polishes a plan, loosens the grip where the scene lets it, and puts it to the exact

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <vector>
 
@@ -71,5 +72,8 @@ class FreeDirections {
   std::vector<Arc> arcs_;
   bool all_ = false;
 };
+
+/// Those at a place p_OF [m].
+using FreeAt = std::function<FreeDirections(const Vec2&)>;
 
 }  // namespace prehensile

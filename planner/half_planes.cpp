@@ -35,7 +35,7 @@ struct Line {
 };
 
 std::vector<Place> places_on(const PlaceGrid& grid, const Model& model,
-                             const std::function<FreeDirections(const Vec2&)>& free_at) {
+                             const FreeAt& free_at) {
   std::vector<Place> places;
   for (int node = 0; node < grid.count(); ++node) {
     const Vec2 p_OF = grid.place(node);
@@ -86,8 +86,7 @@ Loops region_behind(const Line& line, double size) {
 }  // namespace
 
 std::vector<Loops> half_planes(const Model& model, const std::vector<Vec2>& goals,
-                               const std::function<FreeDirections(const Vec2&)>& free_at,
-                               int count) {
+                               const FreeAt& free_at, int count) {
   const PlaceGrid grid = PlaceGrid::over(model.pad_face, kNodesPerSide);
   const std::vector<Place> places = places_on(grid, model, free_at);
   const Vec2 start = finger_in_object(model.scene.start.X_HO);

@@ -2,7 +2,6 @@
 /// planner.
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "mechanics/model.h"
@@ -16,7 +15,6 @@ namespace prehensile {
 /// which they keep farthest. A straight line shows what levels on a grid, whose borders
 /// have many directions, do not: that all ways lead into one half-plane, by a little.
 std::vector<Loops> half_planes(const Model& model, const std::vector<Vec2>& goals,
-                               const std::function<FreeDirections(const Vec2&)>& free_at,
-                               int count);
+                               const FreeAt& free_at, int count);
 
 }  // namespace prehensile

@@ -74,14 +74,6 @@ std::vector<FrictionBox> boxes_of(const Model& model) {
   return boxes_of(pad_section(model));
 }
 
-FrictionBox united(const FrictionBox& a, const FrictionBox& b) {
-  return {std::min(a.along_low, b.along_low),     std::max(a.along_high, b.along_high),
-          std::max(a.across, b.across),           std::min(a.moment_low, b.moment_low),
-          std::max(a.moment_high, b.moment_high), std::min(a.cosine_low, b.cosine_low),
-          std::max(a.cosine_high, b.cosine_high), std::min(a.sine_low, b.sine_low),
-          std::max(a.sine_high, b.sine_high)};
-}
-
 /// Leaves in the second half, as many as a power of two: the last box repeated.
 std::vector<FrictionBox> tree_over(const std::vector<FrictionBox>& boxes) {
   if (boxes.empty()) return {};
@@ -89,7 +81,7 @@ std::vector<FrictionBox> tree_over(const std::vector<FrictionBox>& boxes) {
   std::vector<FrictionBox> tree(2 * leaves, boxes.back());
   std::ranges::copy(boxes, tree.begin() + static_cast<std::ptrdiff_t>(leaves));
   for (std::size_t i = leaves - 1; i > 0; --i) {
-    tree[i] = united(tree[2 * i], tree[2 * i + 1]);
+    tree[i] = joined(tree[2 * i], tree[2 * i + 1]);
   }
   return tree;
 }

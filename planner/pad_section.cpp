@@ -104,6 +104,14 @@ PadSection ring_section(const ContactPoints& points, double c) {
 
 }  // namespace
 
+FrictionBox joined(const FrictionBox& a, const FrictionBox& b) {
+  return {std::min(a.along_low, b.along_low),     std::max(a.along_high, b.along_high),
+          std::max(a.across, b.across),           std::min(a.moment_low, b.moment_low),
+          std::max(a.moment_high, b.moment_high), std::min(a.cosine_low, b.cosine_low),
+          std::max(a.cosine_high, b.cosine_high), std::min(a.sine_low, b.sine_low),
+          std::max(a.sine_high, b.sine_high)};
+}
+
 PadSection pad_section(const Model& model) {
   const ContactPoints& points = model.region.whole();
   if (has_ring_pads(model)) return ring_section(points, model.c);

@@ -29,6 +29,9 @@ struct FrictionBox {
   double sine_low = 0.0, sine_high = 0.0;      ///< of phi
 };
 
+/// The least box that holds both.
+FrictionBox joined(const FrictionBox& a, const FrictionBox& b);
+
 struct PadSection {
   /// moment / (c x force along the motion x kappa) for slow and for fast turning, about.
   double slow_ratio = 0.0, fast_ratio = 0.0;

@@ -10,6 +10,7 @@
 #include "mechanics/sticking.h"
 #include "planner/ring_pads.h"
 #include "scene/outline.h"
+#include "scene/segment_distance.h"
 
 namespace prehensile {
 namespace {
@@ -112,10 +113,8 @@ Vec2 nearest_inside(const std::vector<Vec2>& outline, const Vec2& p) {
   constexpr double kIn = 1e-6;  // [m]
   Vec2 nearest = outline.front();
   for (std::size_t i = 0, before = outline.size() - 1; i < outline.size(); before = i++) {
-    const Vec2 edge = outline[i] - outline[before];
-    const double share =
-        std::clamp((p - outline[before]).dot(edge) / edge.squaredNorm(), 0.0, 1.0);
-    const Vec2 on_edge = outline[before] + share * edge;
+    const double share = nearest_share(p, outline[before], outline[i]);
+    const Vec2 on_edge = outline[before] + share * (outline[i] - outline[before]);
     if ((on_edge - p).norm() < (nearest - p).norm()) nearest = on_edge;
   }
   return nearest + kIn * (nearest - p).normalized();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <optional>
 #include <vector>
 
 #include "planner/baselines.h"
@@ -128,6 +129,19 @@ Plan attempt(const Model& model, const PlanOptions& options, const Clearance& cl
   return plan;
 }
 
+using Clock = std::chrono::steady_clock;
+
+/// The options with what is left of their time limit; nothing if none is. Without a limit
+/// the clock decides nothing.
+std::optional<PlanOptions> with_time_left(const PlanOptions& options,
+                                          Clock::time_point begin) {
+  PlanOptions rest = options;
+  if (options.time_limit <= 0.0) return rest;
+  rest.time_limit -= std::chrono::duration<double>(Clock::now() - begin).count();
+  if (rest.time_limit <= 0.0) return std::nullopt;
+  return rest;
+}
+
 /// [m] of the finger axis: what a nominal search keeps clear of slipping by where a plan
 /// on the very border fails its check.
 constexpr double kClearOfBorder = 0.2e-3;
@@ -145,10 +159,13 @@ constexpr double kDearRepair = 5.0;
 /// again once, and the cheaper is kept.
 Plan search_and_check(const Model& model, const PlanOptions& options,
                       const Margin& margin, Work& work, Found& found) {
+  const auto begin = Clock::now();
   Plan plan = attempt(model, options, {margin}, work, found);
   const auto failed_check = [&] { return plan.instants > 0 && !plan.usable(); };
   const auto again = [&](const Clearance& clearance, const char* how) {
-    Plan other = attempt(model, options, clearance, work, found);
+    const auto rest = with_time_left(options, begin);
+    if (!rest) return;
+    Plan other = attempt(model, *rest, clearance, work, found);
     other.instants += plan.instants;
     if (!other.usable()) {
       plan.instants = other.instants;
@@ -257,18 +274,14 @@ Plan search_on(const Model& model, const PlanOptions& options, Work& work) {
   if (!options.improve || options.planner != PlanOptions{}.planner) {
     return search_with_and_without(model, options, work);
   }
-  const auto begin = std::chrono::steady_clock::now();
+  const auto begin = Clock::now();
   PlanOptions first = options;
   first.improve = false;
   Plan plan = search_with_and_without(model, first, work);
   if (!plan.usable()) return plan;
-  PlanOptions rest = options;
-  if (options.time_limit > 0.0) {
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-    rest.time_limit -= spent.count();
-    if (rest.time_limit <= 0.0) return plan;
-  }
-  Plan better = search_with_and_without(model, rest, work);
+  const auto rest = with_time_left(options, begin);
+  if (!rest) return plan;
+  Plan better = search_with_and_without(model, *rest, work);
   if (!better.usable()) return plan;
   if (better.promise != plan.promise) {
     return better.promise == Promise::kNominalOnly ? plan : better;

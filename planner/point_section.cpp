@@ -137,14 +137,6 @@ SectionCell joined(const SectionCell& a, const SectionCell& b) {
           std::max(a.turning_high, b.turning_high)};
 }
 
-FrictionBox joined(const FrictionBox& a, const FrictionBox& b) {
-  return {std::min(a.along_low, b.along_low),     std::max(a.along_high, b.along_high),
-          std::max(a.across, b.across),           std::min(a.moment_low, b.moment_low),
-          std::max(a.moment_high, b.moment_high), std::min(a.cosine_low, b.cosine_low),
-          std::max(a.cosine_high, b.cosine_high), std::min(a.sine_low, b.sine_low),
-          std::max(a.sine_high, b.sine_high)};
-}
-
 Motions joined(const Motions& a, const Motions& b) {
   return {joined(a.cell, b.cell), joined(a.box, b.box)};
 }

@@ -38,6 +38,10 @@ bool has_ring_pads(const Model& model) {
          !model.has_soft_points() && model.F > 0.0 && model.c > 0.0;
 }
 
+bool has_round_pads(const Model& model) {
+  return model.has_soft_points() || has_ring_pads(model);
+}
+
 RingFriction ring_friction(const ContactPoints& points, double c, double angle) {
   const double speed = std::cos(angle);
   const double spin = std::sin(angle) / c;

@@ -19,6 +19,9 @@ namespace prehensile {
 /// Whether the pads are whole discs wherever they are.
 bool has_ring_pads(const Model& model);
 
+/// Whether the pads are the same at every place and angle: those, or soft points.
+bool has_round_pads(const Model& model);
+
 /// Friction over F for a twist of the object with |v| = cos(a), c omega = sin(a), a in
 /// [0, pi / 2].
 struct RingFriction {

@@ -173,14 +173,9 @@ TEST(Barrier, FeasibleProblemsHaveNone) {
 /// Over F: a fall that leaves more than this is none that a check may count on.
 constexpr double kBarelyFalls = 0.01;
 
-/// The pads are the same at every place and angle.
-bool are_alike(const Model& model) {
-  return model.has_soft_points() || has_ring_pads(model);
-}
-
 /// By how much the grasp holds gravity, the pads as the face leaves them.
 double slack_of_gravity(const Model& model, const PlanarPose& X_HO, const Vec2& g_O) {
-  if (are_alike(model)) {
+  if (has_round_pads(model)) {
     return holding_slack(model, finger_in_object(X_HO), g_O, Margin::none());
   }
   return gravity_slack_by_pad_law(model, grasp_at(model, X_HO, g_O));
@@ -216,7 +211,7 @@ int crossings(const Model& model, const Loops& region, int tries, Random& random
 /// As a plan has to: of pads that change at close places.
 bool sticks_all_along(const SearchModel& search, const Move& move, Work& work) {
   const Model& model = *search.model;
-  if (are_alike(model)) {
+  if (has_round_pads(model)) {
     return move_sticks(search, move.contact, move.from, move.to, work);
   }
   return move_holds(search, move, work) &&
@@ -227,7 +222,7 @@ bool sticks_all_along(const SearchModel& search, const Move& move, Work& work) {
 /// Pads that are alike everywhere propose what sticks, others have no closed form.
 KappaSet proposed(const Model& model, const StickContact& contact, const Vec2& p_OF,
                   const Vec2& e, Random& random) {
-  if (are_alike(model)) return sticking_kappas(contact, p_OF, e);
+  if (has_round_pads(model)) return sticking_kappas(contact, p_OF, e);
   KappaSet set;
   set.count = 1;
   const double kappa = random_kappa(random);

@@ -21,6 +21,10 @@ TEST(SegmentDistance, IsThatOfTheNearestPoint) {
     for (int k = 1; k <= 1000; ++k) {
       nearest = std::min(nearest, (p - a - k / 1000.0 * (b - a)).norm());
     }
+    const double share = nearest_share(p, a, b);
+    EXPECT_GE(share, 0.0);
+    EXPECT_LE(share, 1.0);
+    EXPECT_NEAR((p - a - share * (b - a)).norm(), distance, 1e-12) << i;
     EXPECT_LE(distance, nearest + 1e-12) << i;
     EXPECT_GE(distance, nearest - 1e-3) << i;
   }

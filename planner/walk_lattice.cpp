@@ -131,11 +131,35 @@ void WalkLattice::add_steps_from(int index, Work& work, std::vector<WalkEdge>& e
     const int to = at_grid_[grid_.index(i + step.i, j + step.j)];
     if (to < 0 || !segment_on_object(model_, node.p_OF, place(to))) continue;
     find_slopes(nodes_[to], work);
+    std::vector<KappaRanges> slopes;
     for (int k = 0; k < contacts_; ++k) {
       const std::size_t at = s * contacts_ + k;
-      add_edges(common(node.slopes[at], nodes_[to].slopes[at]), k, to, step.length,
-                edges);
+      slopes.push_back(common(node.slopes[at], nodes_[to].slopes[at]));
     }
+    look_between(node.p_OF, place(to), step.e, slopes, work);
+    for (int k = 0; k < contacts_; ++k) {
+      add_edges(slopes[k], k, to, step.length, edges);
+    }
+  }
+}
+
+/// Keeps the slopes that stick half way as well: where the face clips the pads the ends
+/// do not decide.
+void WalkLattice::look_between(const Vec2& from, const Vec2& to, const Vec2& e,
+                               std::vector<KappaRanges>& slopes, Work& work) const {
+  const auto is_any = [](const KappaRanges& ranges) { return ranges.count > 0; };
+  if (std::ranges::none_of(slopes, is_any)) return;
+  const Vec2 middle = 0.5 * (from + to);
+  const PadsAtPlace pads(model_, middle);
+  if (pads.are_whole()) return;
+  ++work.other;
+  if (pads.are_lost()) {
+    std::ranges::fill(slopes, KappaRanges());
+    return;
+  }
+  DirectedDrag drag(model_, pads, e, steepness_);
+  for (int k = 0; k < contacts_; ++k) {
+    if (is_any(slopes[k])) slopes[k] = common(slopes[k], drag.kappas(weak_[k], middle));
   }
 }
 

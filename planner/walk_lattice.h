@@ -34,8 +34,8 @@ class WalkLattice {
   /// The index of the goal that a node is the place of, or negative.
   int goal_at(int node) const { return node - start_ - 1; }
 
-  /// The pushes from a node, from when they are first asked for; to be cut by who finds
-  /// that one does not stick.
+  /// The pushes from a node, from when they are first asked for; an edge that does
+  /// not stick may be left out.
   std::vector<WalkEdge>& edges_from(int node, Work& work);
 
  private:
@@ -56,6 +56,8 @@ class WalkLattice {
   void find_held(Node& node, Work& work) const;
   void find_slopes(Node& node, Work& work);
   KappaRanges slopes_along(Node& node, int contact, DirectedDrag& drag) const;
+  void look_between(const Vec2& from, const Vec2& to, const Vec2& e,
+                    std::vector<KappaRanges>& slopes, Work& work) const;
   void add_edges(const KappaRanges& slopes, int contact, int to, double length,
                  std::vector<WalkEdge>& edges) const;
   void add_steps_from(int index, Work& work, std::vector<WalkEdge>& edges);

@@ -17,8 +17,10 @@
 namespace prehensile {
 namespace {
 
-/// Of the lattices that are tried, over the longer side of the object.
-constexpr std::array kNodesPerSide = {24, 48};
+/// Of the lattices that are tried, over the longer side of the object. Walks of many
+/// turns need so many buckets that the finest would take 100 MB.
+constexpr std::array kNodesPerSide = {24, 48, 96};
+constexpr int kMostNodesPerSideOfMany = 48;
 
 constexpr int kMostStates = 20'000;  // nodes x contacts of a lattice
 
@@ -36,14 +38,11 @@ constexpr std::size_t kMostLabels = 400'000;
 constexpr int kEdgesPerTest = 16;
 constexpr int kBucketsPerTest = 400;
 
-/// Walks of which some push turns out not to stick; its edge is cut, and another walk
-/// looked for.
+/// Walks of which some push turns out not to stick; its edge is left out, and another
+/// walk looked for.
 constexpr int kMostRepairs = 100;
 
-/// By this, and a share of its turns, an edge loses more than what does not stick [m].
-constexpr double kLeastTurn = 1e-6;
-constexpr double kShareOfTurns = 0.1;
-
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr float kFar = std::numeric_limits<float>::infinity();
 
 struct Label {
@@ -104,7 +103,7 @@ class WalkSearch {
 
  private:
   double least_rest(int node) const {
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (int i = 0; i < goals_.count; ++i) {
       least = std::min(least, (goals_.places[i].p_OF - lattice_.place(node)).norm());
     }
@@ -200,7 +199,8 @@ class WalkSearch {
   }
 
   /// From the end backwards, each push as deep in what it may turn as the whole walk is.
-  /// None if some do not stick with the real pads along their way: these are cut.
+  /// None if some do not stick with the real pads along their way: these edges are left
+  /// out from then on.
   std::vector<Move> moves_to(const WalkEnd& end) {
     std::vector<Move> moves;
     bool all_stick = true;
@@ -218,7 +218,7 @@ class WalkSearch {
       moves.push_back(
           {edge.contact, state(before.node, turned_before), state(label.node, turned)});
       if (!move_passes(search_, moves.back(), work_)) {
-        cut(turned - turned_before, edge);
+        edge.lo = kInfinity;
         all_stick = false;
       }
       turned = turned_before;
@@ -230,16 +230,6 @@ class WalkSearch {
 
   FlatState state(int node, double c_turned) const {
     return {lattice_.place(node), start_.theta + c_turned / c_};
-  }
-
-  /// Leaves the longer part beside a turn that does not stick.
-  static void cut(double turn, WalkEdge& edge) {
-    const double aside = kShareOfTurns * (edge.hi - edge.lo) + kLeastTurn;
-    if (edge.hi - turn > turn - edge.lo) {
-      edge.lo = turn + aside;
-    } else {
-      edge.hi = turn - aside;
-    }
   }
 
   const SearchModel& search_;
@@ -281,6 +271,7 @@ std::optional<std::vector<Move>> search_walks(const SearchModel& search,
   const Steepness steepness =
       turns == WalkTurns::kFew ? Steepness::kUsual : Steepness::kSteep;
   for (const int per_side : kNodesPerSide) {
+    if (turns == WalkTurns::kMany && per_side > kMostNodesPerSideOfMany) break;
     WalkLattice lattice(search, start, goals, per_side, steepness);
     const auto contacts = static_cast<int>(search.contacts.size());
     if (lattice.nodes() * contacts > kMostStates) break;

@@ -69,6 +69,29 @@ TEST(WalkSearch, FindsLoopsWhereThePadsAreClipped) {
   }
 }
 
+/// One through places so narrow that only the finest lattice has nodes in them, and two
+/// of which many pushes turn out not to stick.
+TEST(WalkSearch, FindsNarrowWays) {
+  const auto scene_of = [](double pushers, std::uint64_t index) {
+    const FixtureRange range{.object = FixtureObject::kConvex,
+                             .count = {pushers, pushers},
+                             .goals = GoalsFrom::kRandom};
+    return random_fixture(range, 1, index)->scene;
+  };
+  for (const Scene& scene :
+       {random_scene(FixtureObject::kConvex, 151), scene_of(2, 81), scene_of(5, 56)}) {
+    const Model model = prepare(scene);
+    const SearchModel search = prepare_search(model, Margin::none());
+    const auto moves = walk_in(search);
+    ASSERT_TRUE(moves) << scene.name;
+    Plan plan = blank_plan(search, scene.start, {});
+    for (const Move& move : *moves) append_move(search, move, plan);
+    testing::Directions directions;
+    meet_ends(model, {}, plan);
+    testing::expect_executable(model, plan, directions);
+  }
+}
+
 /// One wall, of which the object has to be turned by several whole turns.
 Scene scene_of_many_turns(std::uint64_t index) {
   const FixtureRange range{
@@ -89,14 +112,15 @@ TEST(WalkSearch, MeetsAngleAtAnyWholeTurn) {
 }
 
 TEST(WalkSearch, MeetsANumberAtItself) {
+  constexpr std::int64_t kSmallBudget = 300'000;
   int otherwise = 0;
   for (std::uint64_t index = 0; index < 40; ++index) {
     Scene scene = scene_of_many_turns(index);
     const Model of_angle = prepare(scene);
-    const auto turned = walk_in(prepare_search(of_angle, Margin::none()));
+    const auto turned = walk_in(prepare_search(of_angle, Margin::none()), kSmallBudget);
     scene.goal->theta_is = ThetaMeaning::kNumber;
     const Model model = prepare(scene);
-    const auto moves = walk_in(prepare_search(model, Margin::none()));
+    const auto moves = walk_in(prepare_search(model, Margin::none()), kSmallBudget);
     if (moves) {
       EXPECT_NEAR(moves->back().to.theta, *scene.goal->theta, 1e-9) << index;
     }

@@ -18,6 +18,7 @@
 #include "planner/ring_kappas.h"
 #include "planner/ring_pads.h"
 #include "planner/steering.h"
+#include "planner/traced_regions.h"
 #include "scene/outline.h"
 
 namespace prehensile {
@@ -52,6 +53,12 @@ constexpr std::array kLevels = {0.5, 0.25, 0.75};
 /// clear of [m].
 constexpr int kMostLines = 4;
 constexpr double kGoalSpacing = 2e-4;
+
+/// Lines that follow what sticks, of those that are tried as borders. Where the face
+/// clips the discs so much slack, over F, may be missing.
+constexpr int kMostTraced = 40;
+constexpr int kMostTracedWhereClipped = 12;
+constexpr double kAllowedIfTraced = 0.01;
 
 /// A field with less at the goal [spacings of the grid] shows no barrier.
 constexpr double kLeastValue = 0.5;
@@ -161,6 +168,20 @@ Loops straight_barrier(const Model& model, const FreeAt& free_at) {
   return {};
 }
 
+/// A line that follows what sticks and is a barrier, or none: for what is free at a
+/// place.
+Loops traced_barrier(const Model& model, const FreeAt& free_at, int count,
+                     const CheatField::Stopped& stopped) {
+  GoalSample goal = sample_of(*model.scene.goal, kGoalSpacing);
+  const TracedProblem problem{free_at, std::move(goal.middle), std::move(goal.border),
+                              stopped};
+  std::optional<Vec2> weak;
+  for (Loops& region : traced_regions(model, problem, count)) {
+    if (verify_barrier(model, region, nullptr, &weak)) return std::move(region);
+  }
+  return {};
+}
+
 /// Tries levels of a field.
 class Levels {
  public:
@@ -210,6 +231,8 @@ Loops barrier_of_whole_pads(const Model& model, const FreeAt& free_at,
                             const CheatField::Stopped& stopped) {
   Loops straight = straight_barrier(model, free_at);
   if (!straight.empty()) return straight;
+  Loops traced = traced_barrier(model, free_at, kMostTraced, stopped);
+  if (!traced.empty()) return traced;
   Levels levels(model);
   for (const int nodes : kNodesPerSide) {
     CheatField field(model, nodes, free_at, stopped);
@@ -224,19 +247,22 @@ Loops barrier_of_whole_pads(const Model& model, const FreeAt& free_at,
 
 Loops barrier_of_clipped_discs(const Model& model, const CheatField::Stopped& stopped) {
   PlaceSlacks slacks(model);
+  const auto free_if = [&](double allowed) {
+    return [&, allowed](const Vec2& place) {
+      if (depth_inside(model.pad_face, place) < 0.0) return FreeDirections();
+      return FreeDirections::above(slacks.at(place), -allowed);
+    };
+  };
+  Loops traced =
+      traced_barrier(model, free_if(kAllowedIfTraced), kMostTracedWhereClipped, stopped);
+  if (!traced.empty()) return traced;
   Levels levels(model);
   constexpr std::array kWays = {Judged::kAtBothEnds, Judged::kAllAlong};
   for (const int nodes : kNodesPerSideWhereClipped) {
     std::vector<CheatField> fields;  // the last is the strictest
     fields.reserve(kAllowed.size());
     for (const double allowed : kAllowed) {
-      fields.emplace_back(
-          model, nodes,
-          [&, allowed](const Vec2& place) {
-            if (depth_inside(model.pad_face, place) < 0.0) return FreeDirections();
-            return FreeDirections::above(slacks.at(place), -allowed);
-          },
-          stopped);
+      fields.emplace_back(model, nodes, free_if(allowed), stopped);
     }
     // What the strictest does not separate the others would not either.
     if (std::ranges::none_of(kWays, [&](Judged judged) {

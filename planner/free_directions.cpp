@@ -12,6 +12,20 @@ FreeDirections FreeDirections::above(const std::array<double, kLookedAt>& values
           }};
 }
 
+FreeDirections::Gap FreeDirections::widest_gap() const {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  if (all_) return {};
+  if (arcs_.empty()) return {0.0, kTurn};
+  Gap widest;
+  for (std::size_t i = 0; i < arcs_.size(); ++i) {
+    const bool is_last = i + 1 == arcs_.size();
+    const double next = is_last ? arcs_[0].from + kTurn : arcs_[i + 1].from;
+    const double width = next - arcs_[i].to;
+    if (width > widest.width) widest = {arcs_[i].to, width};
+  }
+  return widest;
+}
+
 double FreeDirections::distance(double angle) const {
   if (all_) return 0.0;
   double least = std::numbers::pi;

@@ -45,6 +45,15 @@ class FreeDirections {
   /// Those with a value of at least `least`, which is linear between those looked at.
   static FreeDirections above(const std::array<double, kLookedAt>& values, double least);
 
+  bool are_none() const { return !all_ && arcs_.empty(); }
+
+  /// The widest range of directions of which none is free, counter-clockwise [rad]: all
+  /// around where none is at all.
+  struct Gap {
+    double from = 0.0, width = 0.0;
+  };
+  Gap widest_gap() const;
+
   /// Angle of a direction to the next that is free [rad]; pi if none is.
   double distance(double angle) const;
 

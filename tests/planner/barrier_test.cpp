@@ -118,6 +118,24 @@ TEST(Barrier, KnowsHowFarTheTolerancesOfAGoalReach) {
   EXPECT_TRUE(holds_goal(diagonal, 1.35 * tolerance));
 }
 
+/// Borders that have to turn with what sticks: neither straight lines nor levels on a
+/// grid are any.
+TEST(Barrier, FollowsWhatSticks) {
+  const auto scene_of = [](double pushers, std::uint64_t index) {
+    const FixtureRange range{.object = FixtureObject::kConvex,
+                             .count = {pushers, pushers},
+                             .goals = GoalsFrom::kRandom};
+    return random_fixture(range, 1, index)->scene;
+  };
+  for (const Scene& scene : {scene_of(1, 53), scene_of(2, 48)}) {
+    const Model model = prepare(scene);
+    const Loops region = find_barrier(model);
+    ASSERT_FALSE(region.empty()) << scene.name;
+    std::string why;
+    EXPECT_TRUE(verify_barrier(model, region, &why)) << why;
+  }
+}
+
 TEST(Barrier, RefusesRegionsThatAreNone) {
   const Model model = prepare(lift_by_one_wall());
   const Loops region = find_barrier(model);

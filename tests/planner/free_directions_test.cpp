@@ -45,6 +45,23 @@ TEST(FreeDirections, OfAllAndOfNone) {
   }
 }
 
+TEST(FreeDirections, WidestGapIsBetweenTheRangesFarthestApart) {
+  for (double turned = -4.0; turned < 4.0; turned += 0.37) {
+    // 0.4 free, 1.1 not, 0.8 free, the rest not.
+    const auto is_free = [=](double angle) {
+      const double from = std::remainder(angle - turned, 2.0 * kPi);
+      return std::abs(from - 0.2) < 0.2 || std::abs(from - 1.9) < 0.4;
+    };
+    const FreeDirections free = FreeDirections::where(is_free);
+    const FreeDirections::Gap gap = free.widest_gap();
+    EXPECT_NEAR(std::remainder(gap.from - turned - 2.3, 2.0 * kPi), 0.0, 2e-3) << turned;
+    EXPECT_NEAR(gap.width, 2.0 * kPi - 2.3, 4e-3) << turned;
+  }
+  EXPECT_EQ(FreeDirections::where([](double) { return true; }).widest_gap().width, 0.0);
+  EXPECT_EQ(FreeDirections().widest_gap().width, 2.0 * kPi);
+  EXPECT_TRUE(FreeDirections().are_none());
+}
+
 /// Values that fall to both sides of a direction, as sampled.
 TEST(FreeDirections, AboveAValueInterpolates) {
   constexpr double kMiddle = 0.7;

@@ -1,0 +1,31 @@
+/// Regions beside lines that follow what sticks, which the finder of barriers tries.
+/// Internal to the planner.
+///
+/// Where all free directions at a place lie within less than half a turn, a line through
+/// it along one of those that are left and right of none of them cannot be crossed there
+/// towards its left. The border of all places that can be reached consists of such lines.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "mechanics/model.h"
+#include "planner/free_directions.h"
+#include "planner/level_set.h"
+
+namespace prehensile {
+
+/// What sticks, and what is known of the goal.
+struct TracedProblem {
+  FreeAt free_at;
+  /// Places of the goal, and on the border of what its tolerances leave.
+  std::vector<Vec2> middle, border;
+  std::function<bool()> stopped;  ///< asked for each line
+};
+
+/// Regions that hold the start and no place of the goal, at most `count`, on the right of
+/// lines from near the start, near the goal and between them that end beside the object.
+std::vector<Loops> traced_regions(const Model& model, const TracedProblem& problem,
+                                  int count);
+
+}  // namespace prehensile

@@ -19,6 +19,11 @@ constexpr int kSlopesOfWhole = 181;
 constexpr int kSlopesOfClipped = 61;
 constexpr int kSteepSlopesOfClipped = 121;
 
+/// Every so many slopes it is looked at first whether those up to the next are hopeless:
+/// an inequality lacks so much at both, over F or F c.
+constexpr std::size_t kStride = 4;
+constexpr double kHopeless = 0.25;
+
 /// Angles of the object at which whole and clipped pads are looked at: of these there are
 /// more points.
 constexpr int kAngles = 8;
@@ -77,6 +82,16 @@ DirectedDrag::DirectedDrag(const Model& model, const PadsAtPlace& pads, const Ve
       angles_(pads.grasps().size()),
       samples_(slopes_.size() * angles_) {}
 
+DirectedDrag::DirectedDrag(DirectedDrag* other) noexcept
+    : model_(other->model_),
+      pads_(other->pads_),
+      e_(-other->e_),
+      slopes_(other->slopes_),
+      angles_(other->angles_),
+      opposite_(other) {}
+
+DirectedDrag DirectedDrag::opposite() noexcept { return DirectedDrag(this); }
+
 std::span<const DirectedDrag::Slope> DirectedDrag::slopes_for(const PadsAtPlace& pads,
                                                               Steepness steepness) {
   static const auto whole = slopes_up_to(kMostKappa, kSlopesOfWhole);
@@ -90,8 +105,11 @@ std::span<const DirectedDrag::Slope> DirectedDrag::slopes_for(const PadsAtPlace&
   return pads.are_whole() ? whole : clipped;
 }
 
-const DirectedDrag::Sample& DirectedDrag::sample(std::size_t slope,
-                                                 std::size_t angle) noexcept {
+DirectedDrag::Sample DirectedDrag::sample(std::size_t slope, std::size_t angle) noexcept {
+  if (opposite_) {
+    const Sample sample = opposite_->sample(slopes_.size() - 1 - slope, angle);
+    return {-sample.force, -sample.moment, true};
+  }
   Sample& sample = samples_[slope * angles_ + angle];
   if (sample.known) return sample;
   sample.known = true;
@@ -140,6 +158,27 @@ class DirectedDrag::Instants {
     return slack - kAside;
   }
 
+  /// Inequalities, one bit each, that fail by so much at one angle that they fail at the
+  /// next few slopes as well: all but those that fail at both may stick between two.
+  unsigned hopeless(std::size_t i) const {
+    unsigned failing = 0;
+    const auto look_at = [&](unsigned bit, double value, double size) {
+      if (value < -kHopeless * size) failing |= 1u << bit;
+    };
+    look_at(0, advance(i), 1.0 + std::max(std::abs(turning_a_), std::abs(turning_b_)));
+    if (failing != 0) return failing;
+    const Sample sample = drag_.sample(i, 0);
+    const Vec2 force = sample.force - contact_.gamma;
+    const double moment = sample.moment - weight_;
+    const double allowed = contact_.mu * force.dot(contact_.n);
+    const double along = force.dot(contact_.t);
+    look_at(1, allowed - along, 1.0 + contact_.mu);
+    look_at(2, allowed + along, 1.0 + contact_.mu);
+    look_at(3, cross(a_, force) - moment, 1.0 + a_.norm());
+    look_at(4, moment - cross(b_, force), 1.0 + b_.norm());
+    return failing;
+  }
+
   /// The kappa between two slopes at which the slack is nought.
   double border(std::size_t i) const {
     const double before = slack(i - 1);
@@ -172,8 +211,15 @@ KappaRanges DirectedDrag::kappas(const StickContact& contact, const Vec2& p_OF) 
   const Instants instants(*this, contact, p_OF);
   KappaRanges set;
   bool stuck = false;
+  unsigned before = 0;
+  unsigned after = instants.hopeless(0);
   for (std::size_t i = 0; i < slopes_.size(); ++i) {
-    const bool sticks = instants.sticks(i);
+    if (i % kStride == 0) {
+      before = after;
+      after = i + kStride < slopes_.size() ? instants.hopeless(i + kStride) : 0;
+    }
+    const bool is_hopeless = i % kStride == 0 ? before != 0 : (before & after) != 0;
+    const bool sticks = !is_hopeless && instants.sticks(i);
     if (sticks && !stuck) {
       if (set.count == 2) break;
       const double lo = i > 0 ? instants.border(i) : std::tan(slopes_[0].angle);

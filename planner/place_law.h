@@ -62,6 +62,10 @@ class DirectedDrag {
   /// at p_OF. No heap.
   KappaRanges kappas(const StickContact& contact, const Vec2& p_OF) noexcept;
 
+  /// Of motions the other way, whose friction is the opposite: what either has found both
+  /// know. Must not outlive this.
+  DirectedDrag opposite() noexcept;
+
   /// One of the kappas that are looked at, as the angle of (1, kappa) [rad].
   struct Slope {
     double angle, cosine, sine;
@@ -75,14 +79,16 @@ class DirectedDrag {
   };
   class Instants;
   static std::span<const Slope> slopes_for(const PadsAtPlace& pads, Steepness steepness);
-  const Sample& sample(std::size_t slope, std::size_t angle) noexcept;
+  explicit DirectedDrag(DirectedDrag* other) noexcept;
+  Sample sample(std::size_t slope, std::size_t angle) noexcept;
 
   const Model& model_;
   const PadsAtPlace& pads_;
   Vec2 e_;
   std::span<const Slope> slopes_;
   std::size_t angles_;
-  std::vector<Sample> samples_;  // by slope and angle
+  std::vector<Sample> samples_;  // by slope and angle; empty where the other has them
+  DirectedDrag* opposite_ = nullptr;  // that has
 };
 
 }  // namespace prehensile

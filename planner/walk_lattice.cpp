@@ -94,19 +94,22 @@ void WalkLattice::find_slopes(Node& node, Work& work) {
       whole_drags_.emplace_back(model_, *whole_pads_, step.e, steepness_);
     }
   }
-  for (std::size_t s = 0; s < steps_.size(); ++s) {
-    ++work.other;
-    const auto keep = [&](DirectedDrag& drag) {
-      for (int k = 0; k < contacts_; ++k) {
-        node.slopes[s * contacts_ + k] = slopes_along(node, k, drag);
-      }
-    };
-    if (pads.are_whole()) {
-      keep(whole_drags_[s]);
-    } else {
-      DirectedDrag drag(model_, pads, steps_[s].e, steepness_);
-      keep(drag);
+  work.other += static_cast<std::int64_t>(steps_.size());
+  const auto keep = [&](std::size_t s, DirectedDrag& drag) {
+    for (int k = 0; k < contacts_; ++k) {
+      node.slopes[s * contacts_ + k] = slopes_along(node, k, drag);
     }
+  };
+  if (pads.are_whole()) {
+    for (std::size_t s = 0; s < steps_.size(); ++s) keep(s, whole_drags_[s]);
+    return;
+  }
+  // The last step is the first one back, and so on.
+  for (std::size_t s = 0; s < steps_.size() / 2; ++s) {
+    DirectedDrag drag(model_, pads, steps_[s].e, steepness_);
+    DirectedDrag back = drag.opposite();
+    keep(s, drag);
+    keep(steps_.size() - 1 - s, back);
   }
 }
 

@@ -13,14 +13,15 @@
 #include "planner/costs.h"
 #include "planner/shorten.h"
 #include "planner/walk_lattice.h"
+#include "planner/walk_rest.h"
 
 namespace prehensile {
 namespace {
 
-/// Of the lattices that are tried, over the longer side of the object. Walks of many
-/// turns need so many buckets that the finest would take 100 MB.
+/// Of the lattices that are tried, over the longer side of the object. The finest takes
+/// seconds, and finds ways too narrow for a margin.
 constexpr std::array kNodesPerSide = {24, 48, 96};
-constexpr int kMostNodesPerSideOfMany = 48;
+constexpr int kMostNodesWithMargin = 48;
 
 constexpr int kMostStates = 20'000;  // nodes x contacts of a lattice
 
@@ -28,7 +29,7 @@ constexpr int kMostStates = 20'000;  // nodes x contacts of a lattice
 constexpr double kFewTurns = 15.0;
 constexpr double kManyTurns = 150.0;
 constexpr int kBucketsOfFew = 400;
-constexpr int kBucketsOfMany = 2000;
+constexpr int kBucketsOfMany = 1000;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
@@ -50,6 +51,12 @@ struct Label {
   double cost = 0.0;
   int node = -1, contact = -1;
   int parent = -1, edge = -1;  ///< the label before, and the edge of its node
+};
+
+/// The cheapest label for a bucket of turns at a node.
+struct Kept {
+  float cost = kFar;
+  int label = -1;
 };
 
 struct QueueEntry {
@@ -82,13 +89,12 @@ class WalkSearch {
         most_turn_(turns == WalkTurns::kFew ? kFewTurns : kManyTurns),
         buckets_(turns == WalkTurns::kFew ? kBucketsOfFew : kBucketsOfMany),
         is_number_(search.model->scene.goal &&
-                   search.model->scene.goal->theta_is == ThetaMeaning::kNumber) {
+                   search.model->scene.goal->theta_is == ThetaMeaning::kNumber),
+        rest_(lattice, static_cast<int>(search.contacts.size()), limits, work) {
     const TurnWindow window = turns_from(search, start.theta);
     window_ = {c_ * std::max(window.low, -most_turn_),
                c_ * std::min(window.high, most_turn_)};
-    for (int node = 0; node < lattice.nodes(); ++node) rest_.push_back(least_rest(node));
-    bucket_costs_.resize(rest_.size() * static_cast<std::size_t>(buckets_));
-    bucket_labels_.resize(bucket_costs_.size());
+    kept_.resize(static_cast<std::size_t>(lattice.nodes()));
   }
 
   std::optional<std::vector<Move>> run() {
@@ -102,19 +108,10 @@ class WalkSearch {
   }
 
  private:
-  double least_rest(int node) const {
-    double least = kInfinity;
-    for (int i = 0; i < goals_.count; ++i) {
-      least = std::min(least, (goals_.places[i].p_OF - lattice_.place(node)).norm());
-    }
-    return least / placement_length(*search_.model);
-  }
-
   std::optional<WalkEnd> cheapest_walk() {
     labels_.clear();
     queue_ = {};
-    std::ranges::fill(bucket_costs_, kFar);
-    std::ranges::fill(bucket_labels_, -1);
+    for (std::vector<Kept>& kept : kept_) std::ranges::fill(kept, Kept());
     offer({.node = lattice_.start()});
     while (!queue_.empty() && !limits_.reached() && labels_.size() < kMostLabels) {
       const int next = queue_.top().label;
@@ -165,36 +162,34 @@ class WalkSearch {
     return {bucket(label.lo), bucket(label.hi)};
   }
 
-  std::size_t first_bucket(const Label& label) const {
-    return static_cast<std::size_t>(label.node) * static_cast<std::size_t>(buckets_);
-  }
-
   bool is_alive(int index) const {
     const Label& label = labels_[index];
     const auto [low, high] = buckets_of(label);
-    const int* const kept = &bucket_labels_[first_bucket(label)];
-    return std::find(kept + low, kept + high + 1, index) != kept + high + 1;
+    const std::vector<Kept>& kept = kept_[label.node];
+    return std::any_of(kept.begin() + low, kept.begin() + high + 1,
+                       [&](const Kept& one) { return one.label == index; });
   }
 
   /// Keeps the label if it is the cheapest for some bucket of its angles.
   void offer(const Label& label) {
-    if (label.cost + rest_[label.node] >= to_beat_) return;
+    const double estimate = label.cost + rest_.after(label.node, label.contact);
+    if (estimate >= to_beat_) return;
     const auto [low, high] = buckets_of(label);
-    const std::size_t first = first_bucket(label);
+    std::vector<Kept>& kept = kept_[label.node];
+    kept.resize(static_cast<std::size_t>(buckets_));
     buckets_compared_ += 1 + high - low;
     work_.other += buckets_compared_ / kBucketsPerTest;
     buckets_compared_ %= kBucketsPerTest;
     const auto cost = static_cast<float>(label.cost);
     const int index = static_cast<int>(labels_.size());
     bool is_kept = false;
-    for (std::size_t b = first + low; b <= first + high; ++b) {
-      if (bucket_costs_[b] <= cost) continue;
-      bucket_costs_[b] = cost;
-      bucket_labels_[b] = index;
+    for (int b = low; b <= high; ++b) {
+      if (kept[b].cost <= cost) continue;
+      kept[b] = {cost, index};
       is_kept = true;
     }
     if (!is_kept) return;
-    queue_.push({label.cost + rest_[label.node], index});
+    queue_.push({estimate, index});
     labels_.push_back(label);
   }
 
@@ -242,12 +237,11 @@ class WalkSearch {
   const double c_;          // [m]
   const double most_turn_;  // [rad]
   const int buckets_;
-  const bool is_number_;             // the goal's angle: whole turns count
-  TurnWindow window_;                // of c dtheta [m]
-  std::vector<double> rest_;         // of the cost from each node, at least
-  int buckets_compared_ = 0;         // and not yet counted as work
-  std::vector<float> bucket_costs_;  // by node and bucket of the turn
-  std::vector<int> bucket_labels_;
+  const bool is_number_;  // the goal's angle: whole turns count
+  TurnWindow window_;     // of c dtheta [m]
+  WalkRest rest_;
+  int buckets_compared_ = 0;             // and not yet counted as work
+  std::vector<std::vector<Kept>> kept_;  // by node that is reached, and bucket
   std::vector<Label> labels_;
   std::priority_queue<QueueEntry> queue_;
 };
@@ -271,7 +265,7 @@ std::optional<std::vector<Move>> search_walks(const SearchModel& search,
   const Steepness steepness =
       turns == WalkTurns::kFew ? Steepness::kUsual : Steepness::kSteep;
   for (const int per_side : kNodesPerSide) {
-    if (turns == WalkTurns::kMany && per_side > kMostNodesPerSideOfMany) break;
+    if (per_side > kMostNodesWithMargin && !search.margin.is_none()) break;
     WalkLattice lattice(search, start, goals, per_side, steepness);
     const auto contacts = static_cast<int>(search.contacts.size());
     if (lattice.nodes() * contacts > kMostStates) break;

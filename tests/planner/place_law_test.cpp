@@ -58,6 +58,33 @@ TEST(PlaceLaw, OfSoftPointsIsTheClosedForm) {
   EXPECT_GT(outside, 200);
 }
 
+/// Friction is the opposite for the opposite motion, whole or clipped.
+TEST(PlaceLaw, OppositeIsThatOfMotionsTheOtherWay) {
+  Random random(4);
+  Scene scene = testing::walled_square();
+  scene.overhang = Overhang::kClip;
+  const Model model = prepare(scene);
+  const SearchModel search = prepare_search(model, Margin::none());
+  int ranges = 0;
+  for (int i = 0; i < 400; ++i) {
+    const int contact = random.below(static_cast<int>(search.contacts.size()));
+    const StickContact& stick = search.contacts[static_cast<std::size_t>(contact)].stick;
+    const Vec2 p_OF = random.in_box(0.0499, 0.0499);
+    const Vec2 e = rotated(random.in(-1.0, 1.0), stick.n);
+    const PadsAtPlace pads(model, p_OF);
+    DirectedDrag back(model, pads, -e);
+    const KappaRanges one = back.opposite().kappas(stick, p_OF);
+    const KappaRanges other = ranges_at(search, contact, p_OF, e);
+    ASSERT_EQ(one.count, other.count);
+    for (int k = 0; k < one.count; ++k) {
+      ++ranges;
+      EXPECT_NEAR(one.intervals[k].lo, other.intervals[k].lo, 1e-9);
+      EXPECT_NEAR(one.intervals[k].hi, other.intervals[k].hi, 1e-9);
+    }
+  }
+  EXPECT_GT(ranges, 100);
+}
+
 /// What it admits sticks with the real pads at nearly every angle of the object, clipped
 /// as the face leaves them, where the closed form is far off.
 TEST(PlaceLaw, OfClippedDiscsIsThatOfTheRealPads) {

@@ -112,7 +112,7 @@ TEST(WalkSearch, MeetsAngleAtAnyWholeTurn) {
 }
 
 TEST(WalkSearch, MeetsANumberAtItself) {
-  constexpr std::int64_t kSmallBudget = 300'000;
+  constexpr std::int64_t kSmallBudget = 50'000;
   int otherwise = 0;
   for (std::uint64_t index = 0; index < 40; ++index) {
     Scene scene = scene_of_many_turns(index);

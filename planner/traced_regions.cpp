@@ -97,6 +97,7 @@ std::vector<Steer> all_steers() {
   constexpr std::array kFirst = {0.5, 0.2, 0.8, 0.05, 0.95};
   constexpr std::array kShares = {0.15, 0.85, 0.03, 0.97};
   std::vector<Steer> steers;
+  steers.reserve(kFirst.size() + kShares.size() * kShares.size());
   for (const double first : kFirst) steers.push_back({.first = first});
   for (const double on : kShares) {
     for (const double back : kShares) {

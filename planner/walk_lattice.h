@@ -34,8 +34,8 @@ class WalkLattice {
   /// The index of the goal that a node is the place of, or negative.
   int goal_at(int node) const { return node - start_ - 1; }
 
-  /// The pushes from a node, from when they are first asked for; an edge that does
-  /// not stick may be left out.
+  /// The pushes from a node, from when they are first asked for; to be cut by who finds
+  /// that one does not stick.
   std::vector<WalkEdge>& edges_from(int node, Work& work);
 
  private:

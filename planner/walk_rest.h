@@ -11,7 +11,7 @@ namespace prehensile {
 /// The least J from each node of a lattice to a place of the goal, whatever the object
 /// turns by on the way: the walks that a search need not look at are those from which no
 /// way leads there, or a dear one only. Of the edges that the lattice has now: it stays a
-/// bound when some are left out.
+/// bound when some are cut.
 class WalkRest {
  public:
   /// Asks the lattice for the edges of every node that a way from the start leads to.

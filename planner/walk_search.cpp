@@ -18,10 +18,9 @@
 namespace prehensile {
 namespace {
 
-/// Of the lattices that are tried, over the longer side of the object. The finest takes
-/// seconds, and finds ways too narrow for a margin.
-constexpr std::array kNodesPerSide = {24, 48, 96};
-constexpr int kMostNodesWithMargin = 48;
+/// Of the lattices that are tried, over the longer side of the object.
+constexpr std::array kNodesPerSide = {24, 48};
+constexpr int kFinestNodesPerSide = 96;
 
 constexpr int kMostStates = 20'000;  // nodes x contacts of a lattice
 
@@ -39,11 +38,14 @@ constexpr std::size_t kMostLabels = 400'000;
 constexpr int kEdgesPerTest = 16;
 constexpr int kBucketsPerTest = 400;
 
-/// Walks of which some push turns out not to stick; its edge is left out, and another
-/// walk looked for.
+/// Walks of which some push turns out not to stick; its edge is cut, and another walk
+/// looked for.
 constexpr int kMostRepairs = 100;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// By this, and a share of its turns, an edge loses more than what does not stick [m].
+constexpr double kLeastTurn = 1e-6;
+constexpr double kShareOfTurns = 0.5;
+
 constexpr float kFar = std::numeric_limits<float>::infinity();
 
 struct Label {
@@ -194,8 +196,7 @@ class WalkSearch {
   }
 
   /// From the end backwards, each push as deep in what it may turn as the whole walk is.
-  /// None if some do not stick with the real pads along their way: these edges are left
-  /// out from then on.
+  /// None if some do not stick with the real pads along their way: these are cut.
   std::vector<Move> moves_to(const WalkEnd& end) {
     std::vector<Move> moves;
     bool all_stick = true;
@@ -213,7 +214,7 @@ class WalkSearch {
       moves.push_back(
           {edge.contact, state(before.node, turned_before), state(label.node, turned)});
       if (!move_passes(search_, moves.back(), work_)) {
-        edge.lo = kInfinity;
+        cut(turned - turned_before, edge);
         all_stick = false;
       }
       turned = turned_before;
@@ -225,6 +226,16 @@ class WalkSearch {
 
   FlatState state(int node, double c_turned) const {
     return {lattice_.place(node), start_.theta + c_turned / c_};
+  }
+
+  /// Leaves the longer part beside a turn that does not stick.
+  static void cut(double turn, WalkEdge& edge) {
+    const double aside = kShareOfTurns * (edge.hi - edge.lo) + kLeastTurn;
+    if (edge.hi - turn > turn - edge.lo) {
+      edge.lo = turn + aside;
+    } else {
+      edge.hi = turn - aside;
+    }
   }
 
   const SearchModel& search_;
@@ -246,6 +257,15 @@ class WalkSearch {
   std::priority_queue<QueueEntry> queue_;
 };
 
+/// The finest lattice takes seconds, and finds ways too narrow for a margin; of many
+/// turns only over pads alike at every angle, of which fewer are looked at.
+std::vector<int> nodes_per_side(const SearchModel& search, WalkTurns turns) {
+  std::vector<int> nodes(kNodesPerSide.begin(), kNodesPerSide.end());
+  const bool quick = turns == WalkTurns::kFew || search.model->region.is_isotropic();
+  if (search.margin.is_none() && quick) nodes.push_back(kFinestNodesPerSide);
+  return nodes;
+}
+
 bool is_for_walks(const SearchModel& search) {
   const Model& model = *search.model;
   return !model.scene.obstacles && model.F > 0.0 && model.c > 0.0 &&
@@ -264,8 +284,7 @@ std::optional<std::vector<Move>> search_walks(const SearchModel& search,
   if (!is_for_walks(search)) return std::nullopt;
   const Steepness steepness =
       turns == WalkTurns::kFew ? Steepness::kUsual : Steepness::kSteep;
-  for (const int per_side : kNodesPerSide) {
-    if (per_side > kMostNodesWithMargin && !search.margin.is_none()) break;
+  for (const int per_side : nodes_per_side(search, turns)) {
     WalkLattice lattice(search, start, goals, per_side, steepness);
     const auto contacts = static_cast<int>(search.contacts.size());
     if (lattice.nodes() * contacts > kMostStates) break;

@@ -188,7 +188,7 @@ TEST(RobustPlan, SaysSoWhereOnlyANominalPlanExists) {
 /// is found.
 std::int64_t work_with_margin(Promise promise) {
   const Model model =
-      prepare(random_among_walls(false, RegraspRange::kWide, false, 1, 13));
+      prepare(random_among_walls(false, RegraspRange::kWide, false, 1, 37));
   std::int64_t most = 0;
   PlanOptions options;
   options.budget = 10'000'000;

@@ -130,12 +130,7 @@ class LawfulPads {
   const LocalLaw law_;
 };
 
-/// Of some angles of the goal set, whose places are no closer than `spacing`: the places
-/// without tolerances, and the border of what the tolerances leave around them.
-struct GoalSample {
-  std::vector<Vec2> middle, border;
-};
-
+/// Of some angles of the goal set, whose places are no closer than `spacing`.
 GoalSample sample_of(const Goal& goal, double spacing) {
   constexpr int kPerSide = 6;
   const bool square = goal.test == GoalTest::kPerCoordinate;
@@ -159,24 +154,10 @@ GoalSample sample_of(const Goal& goal, double spacing) {
   return sample;
 }
 
-/// A straight line that is a barrier, or none: for what is free at a place.
-Loops straight_barrier(const Model& model, const FreeAt& free_at) {
-  const GoalSample goal = sample_of(*model.scene.goal, kGoalSpacing);
-  for (Loops& region : half_planes(model, goal.border, free_at, kMostLines)) {
-    if (verify_barrier(model, region, nullptr)) return std::move(region);
-  }
-  return {};
-}
-
-/// A line that follows what sticks and is a barrier, or none: for what is free at a
-/// place.
-Loops traced_barrier(const Model& model, const FreeAt& free_at, int count,
-                     const CheatField::Stopped& stopped) {
-  GoalSample goal = sample_of(*model.scene.goal, kGoalSpacing);
-  const TracedProblem problem{free_at, std::move(goal.middle), std::move(goal.border),
-                              stopped};
+/// The first region that is a barrier, or none.
+Loops barrier_among(const Model& model, std::vector<Loops> regions) {
   std::optional<Vec2> weak;
-  for (Loops& region : traced_regions(model, problem, count)) {
+  for (Loops& region : regions) {
     if (verify_barrier(model, region, nullptr, &weak)) return std::move(region);
   }
   return {};
@@ -229,9 +210,12 @@ class Levels {
 
 Loops barrier_of_whole_pads(const Model& model, const FreeAt& free_at,
                             const CheatField::Stopped& stopped) {
-  Loops straight = straight_barrier(model, free_at);
+  const GoalSample goal = sample_of(*model.scene.goal, kGoalSpacing);
+  Loops straight =
+      barrier_among(model, half_planes(model, goal.border, free_at, kMostLines));
   if (!straight.empty()) return straight;
-  Loops traced = traced_barrier(model, free_at, kMostTraced, stopped);
+  Loops traced =
+      barrier_among(model, traced_regions(model, goal, free_at, kMostTraced, stopped));
   if (!traced.empty()) return traced;
   Levels levels(model);
   for (const int nodes : kNodesPerSide) {
@@ -253,8 +237,10 @@ Loops barrier_of_clipped_discs(const Model& model, const CheatField::Stopped& st
       return FreeDirections::above(slacks.at(place), -allowed);
     };
   };
+  const GoalSample goal = sample_of(*model.scene.goal, kGoalSpacing);
   Loops traced =
-      traced_barrier(model, free_if(kAllowedIfTraced), kMostTracedWhereClipped, stopped);
+      barrier_among(model, traced_regions(model, goal, free_if(kAllowedIfTraced),
+                                          kMostTracedWhereClipped, stopped));
   if (!traced.empty()) return traced;
   Levels levels(model);
   constexpr std::array kWays = {Judged::kAtBothEnds, Judged::kAllAlong};

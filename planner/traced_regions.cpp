@@ -197,7 +197,7 @@ class Tracer {
 };
 
 /// Where lines begin: around the start, around the goal, and between them.
-std::vector<Vec2> places_to_begin(const Vec2& start, const TracedProblem& problem) {
+std::vector<Vec2> places_to_begin(const Vec2& start, const GoalSample& goal) {
   constexpr std::array kFromStart = {2e-4, 1e-3, 3e-3};  // [m]
   constexpr std::array kFromGoal = {2e-4, 2e-3};         // [m]
   constexpr int kAround = 8;
@@ -209,42 +209,41 @@ std::vector<Vec2> places_to_begin(const Vec2& start, const TracedProblem& proble
       places.push_back(start + distance * towards(2.0 * kHalfTurn * k / kAround));
     }
   }
-  const Vec2 goal = problem.middle.front();
-  const std::size_t stride =
-      std::max<std::size_t>(1, (problem.border.size() + kOfGoal - 1) / kOfGoal);
-  for (std::size_t k = 0; k < problem.border.size(); k += stride) {
-    const Vec2 out = (problem.border[k] - goal).normalized();
+  const Vec2& middle = goal.middle.front();
+  const std::size_t stride = (goal.border.size() + kOfGoal - 1) / kOfGoal;
+  for (std::size_t k = 0; k < goal.border.size(); k += stride) {
+    const Vec2 out = (goal.border[k] - middle).normalized();
     for (const double distance : kFromGoal) {
-      places.push_back(problem.border[k] + distance * out);
+      places.push_back(goal.border[k] + distance * out);
     }
   }
   for (int k = 1; k < kBetween; ++k) {
-    places.push_back(start + (goal - start) * k / kBetween);
+    places.push_back(start + (middle - start) * k / kBetween);
   }
   return places;
 }
 
 }  // namespace
 
-std::vector<Loops> traced_regions(const Model& model, const TracedProblem& problem,
-                                  int count) {
+std::vector<Loops> traced_regions(const Model& model, const GoalSample& goal,
+                                  const FreeAt& free_at, int count,
+                                  const std::function<bool()>& stopped) {
   const Vec2 start = finger_in_object(model.scene.start.X_HO);
   const Tracer tracer(model);
-  HeadingGrid grid(model, problem.free_at);
+  HeadingGrid grid(model, free_at);
   const auto about = [&](const Vec2& p) { return grid.at(p); };
-  const auto closely = [&](const Vec2& p) { return headings_beside(problem.free_at(p)); };
+  const auto closely = [&](const Vec2& p) { return headings_beside(free_at(p)); };
   const auto separates = [&](const Loops& region) {
-    const auto is_in = [&](const Vec2& goal) { return is_between(region, goal); };
-    return !region.empty() && is_between(region, start) &&
-           std::ranges::none_of(problem.middle, is_in) &&
-           std::ranges::none_of(problem.border, is_in);
+    const auto is_in = [&](const Vec2& place) { return is_between(region, place); };
+    return !region.empty() && is_in(start) && std::ranges::none_of(goal.middle, is_in) &&
+           std::ranges::none_of(goal.border, is_in);
   };
-  const std::vector<Vec2> places = places_to_begin(start, problem);
+  const std::vector<Vec2> places = places_to_begin(start, goal);
   std::vector<Loops> regions;
   for (const Steer& steer : all_steers()) {
     for (const Vec2& place : places) {
       if (static_cast<int>(regions.size()) == count) return regions;
-      if (problem.stopped && problem.stopped()) return regions;
+      if (stopped && stopped()) return regions;
       if (!separates(tracer.region(place, steer, about))) continue;
       Loops region = tracer.region(place, steer, closely);
       if (separates(region)) regions.push_back(std::move(region));

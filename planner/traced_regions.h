@@ -15,17 +15,16 @@
 
 namespace prehensile {
 
-/// What sticks, and what is known of the goal.
-struct TracedProblem {
-  FreeAt free_at;
-  /// Places of the goal, and on the border of what its tolerances leave.
-  std::vector<Vec2> middle, border;
-  std::function<bool()> stopped;  ///< asked for each line
+/// Some places of a goal set: without tolerances, and on the border of what these leave.
+struct GoalSample {
+  std::vector<Vec2> middle, border;  // not empty
 };
 
 /// Regions that hold the start and no place of the goal, at most `count`, on the right of
 /// lines from near the start, near the goal and between them that end beside the object.
-std::vector<Loops> traced_regions(const Model& model, const TracedProblem& problem,
-                                  int count);
+/// `stopped` is asked for each line.
+std::vector<Loops> traced_regions(const Model& model, const GoalSample& goal,
+                                  const FreeAt& free_at, int count,
+                                  const std::function<bool()>& stopped = {});
 
 }  // namespace prehensile

@@ -128,16 +128,16 @@ void WalkLattice::add_steps_from(int index, Work& work, std::vector<WalkEdge>& e
   find_slopes(node, work);
   const int i = grid_.column(on_grid_[index]);
   const int j = grid_.row(on_grid_[index]);
+  std::vector<KappaRanges> slopes(static_cast<std::size_t>(contacts_));
   for (std::size_t s = 0; s < steps_.size(); ++s) {
     const Step& step = steps_[s];
     if (!grid_.has(i + step.i, j + step.j)) continue;
     const int to = at_grid_[grid_.index(i + step.i, j + step.j)];
     if (to < 0 || !segment_on_object(model_, node.p_OF, place(to))) continue;
     find_slopes(nodes_[to], work);
-    std::vector<KappaRanges> slopes;
     for (int k = 0; k < contacts_; ++k) {
       const std::size_t at = s * contacts_ + k;
-      slopes.push_back(common(node.slopes[at], nodes_[to].slopes[at]));
+      slopes[k] = common(node.slopes[at], nodes_[to].slopes[at]);
     }
     look_between(node.p_OF, place(to), step.e, slopes, work);
     for (int k = 0; k < contacts_; ++k) {

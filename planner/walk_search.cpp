@@ -10,7 +10,6 @@
 #include "planner/baselines.h"
 #include "planner/chain.h"
 #include "planner/confines.h"
-#include "planner/costs.h"
 #include "planner/shorten.h"
 #include "planner/walk_lattice.h"
 #include "planner/walk_rest.h"

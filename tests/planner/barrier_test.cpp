@@ -18,6 +18,7 @@
 namespace prehensile {
 namespace {
 
+using testing::convex_with_walls;
 using testing::goal_at;
 using testing::Random;
 using testing::random_kappa;
@@ -121,13 +122,7 @@ TEST(Barrier, KnowsHowFarTheTolerancesOfAGoalReach) {
 /// Borders that have to turn with what sticks: neither straight lines nor levels on a
 /// grid are any.
 TEST(Barrier, FollowsWhatSticks) {
-  const auto scene_of = [](double pushers, std::uint64_t index) {
-    const FixtureRange range{.object = FixtureObject::kConvex,
-                             .count = {pushers, pushers},
-                             .goals = GoalsFrom::kRandom};
-    return random_fixture(range, 1, index)->scene;
-  };
-  for (const Scene& scene : {scene_of(1, 53), scene_of(2, 48)}) {
+  for (const Scene& scene : {convex_with_walls(1, 53), convex_with_walls(2, 48)}) {
     const Model model = prepare(scene);
     const Loops region = find_barrier(model);
     ASSERT_FALSE(region.empty()) << scene.name;

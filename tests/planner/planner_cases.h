@@ -11,6 +11,7 @@
 #include "planner/planner.h"
 #include "planner/steering.h"
 #include "problems/published_regrasps.h"
+#include "problems/random_fixtures.h"
 #include "problems/random_regrasps.h"
 
 namespace prehensile::testing {
@@ -32,6 +33,14 @@ inline Goal goal_at(const Vec2& p_OF, double theta) {
   goal.y = X_HO.y;
   goal.theta = X_HO.theta;
   return goal;
+}
+
+/// A random polygon with so many walls beside it, and a goal anywhere.
+inline Scene convex_with_walls(int walls, std::uint64_t index) {
+  const FixtureRange range{.object = FixtureObject::kConvex,
+                           .count = {1.0 * walls, 1.0 * walls},
+                           .goals = GoalsFrom::kRandom};
+  return random_fixture(range, 1, index)->scene;
 }
 
 /// Prints median, 99th percentile and worst of times in seconds.

@@ -28,12 +28,12 @@ auto bent(double half) {
   };
 }
 
-TracedProblem problem_of(FreeAt free_at, const Vec2& goal) {
-  TracedProblem problem{std::move(free_at), {goal}, {}, {}};
+GoalSample goal_around(const Vec2& place) {
+  GoalSample goal{{place}, {}};
   for (int k = 0; k < 24; ++k) {
-    problem.border.push_back(goal + 1e-3 * towards(2.0 * kPi * k / 24));
+    goal.border.push_back(place + 1e-3 * towards(2.0 * kPi * k / 24));
   }
-  return problem;
+  return goal;
 }
 
 /// The greatest angle by which a free direction leads out across a border, which has to
@@ -58,13 +58,13 @@ TEST(TracedRegions, NoFreeDirectionLeadsOut) {
   const Model model = at_the_middle();
   int found = 0;
   for (const double half : {0.4, 1.0, 1.4}) {
-    for (const Vec2& goal : {Vec2(-0.01, 0.004), Vec2(-0.006, -0.012)}) {
-      const TracedProblem problem = problem_of(bent(half), goal);
-      for (const Loops& region : traced_regions(model, problem, 30)) {
+    for (const Vec2& middle : {Vec2(-0.01, 0.004), Vec2(-0.006, -0.012)}) {
+      const GoalSample goal = goal_around(middle);
+      for (const Loops& region : traced_regions(model, goal, bent(half), 30)) {
         ++found;
         EXPECT_TRUE(is_between(region, {0.0, 0.0}));
-        for (const Vec2& place : problem.border) EXPECT_FALSE(is_between(region, place));
-        const double across = worst_crossing(model, problem.free_at, region);
+        for (const Vec2& place : goal.border) EXPECT_FALSE(is_between(region, place));
+        const double across = worst_crossing(model, bent(half), region);
         EXPECT_GT(across, -kPi) << "beside the object";
         EXPECT_LT(across, 0.03) << half;
       }
@@ -75,16 +75,16 @@ TEST(TracedRegions, NoFreeDirectionLeadsOut) {
 
 TEST(TracedRegions, AreNoneWhereWaysLeadEverywhereOrToTheGoal) {
   const Model model = at_the_middle();
-  EXPECT_TRUE(traced_regions(model, problem_of(bent(1.8), {-0.01, 0.0}), 5).empty());
-  EXPECT_TRUE(traced_regions(model, problem_of(bent(0.5), {0.012, 0.004}), 5).empty());
+  EXPECT_TRUE(traced_regions(model, goal_around({-0.01, 0.0}), bent(1.8), 5).empty());
+  EXPECT_TRUE(traced_regions(model, goal_around({0.012, 0.004}), bent(0.5), 5).empty());
 }
 
 TEST(TracedRegions, AreNoMoreThanWantedAndEndWhenStopped) {
   const Model model = at_the_middle();
-  TracedProblem problem = problem_of(bent(0.8), {-0.01, 0.0});
-  EXPECT_EQ(traced_regions(model, problem, 3).size(), 3u);
-  problem.stopped = [] { return true; };
-  EXPECT_TRUE(traced_regions(model, problem, 3).empty());
+  const GoalSample goal = goal_around({-0.01, 0.0});
+  EXPECT_EQ(traced_regions(model, goal, bent(0.8), 3).size(), 3u);
+  const auto stopped = [] { return true; };
+  EXPECT_TRUE(traced_regions(model, goal, bent(0.8), 3, stopped).empty());
 }
 
 }  // namespace

@@ -15,6 +15,8 @@
 namespace prehensile {
 namespace {
 
+using testing::convex_with_walls;
+
 constexpr std::int64_t kBudget = 5'000'000;
 
 Scene random_scene(FixtureObject object, std::uint64_t index) {
@@ -72,14 +74,8 @@ TEST(WalkSearch, FindsLoopsWhereThePadsAreClipped) {
 /// One through places so narrow that only the finest lattice has nodes in them, and two
 /// of which many pushes turn out not to stick.
 TEST(WalkSearch, FindsNarrowWays) {
-  const auto scene_of = [](double pushers, std::uint64_t index) {
-    const FixtureRange range{.object = FixtureObject::kConvex,
-                             .count = {pushers, pushers},
-                             .goals = GoalsFrom::kRandom};
-    return random_fixture(range, 1, index)->scene;
-  };
-  for (const Scene& scene :
-       {random_scene(FixtureObject::kConvex, 151), scene_of(2, 81), scene_of(5, 56)}) {
+  for (const Scene& scene : {random_scene(FixtureObject::kConvex, 151),
+                             convex_with_walls(2, 81), convex_with_walls(5, 56)}) {
     const Model model = prepare(scene);
     const SearchModel search = prepare_search(model, Margin::none());
     const auto moves = walk_in(search);
@@ -93,11 +89,7 @@ TEST(WalkSearch, FindsNarrowWays) {
 }
 
 /// One wall, of which the object has to be turned by several whole turns.
-Scene scene_of_many_turns(std::uint64_t index) {
-  const FixtureRange range{
-      .object = FixtureObject::kConvex, .count = {1.0, 1.0}, .goals = GoalsFrom::kRandom};
-  return random_fixture(range, 1, index)->scene;
-}
+Scene scene_of_many_turns(std::uint64_t index) { return convex_with_walls(1, index); }
 
 TEST(WalkSearch, MeetsAngleAtAnyWholeTurn) {
   for (const std::uint64_t index : {7, 22, 39}) {
@@ -112,15 +104,14 @@ TEST(WalkSearch, MeetsAngleAtAnyWholeTurn) {
 }
 
 TEST(WalkSearch, MeetsANumberAtItself) {
-  constexpr std::int64_t kSmallBudget = 50'000;
   int otherwise = 0;
   for (std::uint64_t index = 0; index < 40; ++index) {
     Scene scene = scene_of_many_turns(index);
     const Model of_angle = prepare(scene);
-    const auto turned = walk_in(prepare_search(of_angle, Margin::none()), kSmallBudget);
+    const auto turned = walk_in(prepare_search(of_angle, Margin::none()));
     scene.goal->theta_is = ThetaMeaning::kNumber;
     const Model model = prepare(scene);
-    const auto moves = walk_in(prepare_search(model, Margin::none()), kSmallBudget);
+    const auto moves = walk_in(prepare_search(model, Margin::none()));
     if (moves) {
       EXPECT_NEAR(moves->back().to.theta, *scene.goal->theta, 1e-9) << index;
     }

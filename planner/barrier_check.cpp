@@ -54,24 +54,10 @@ struct Piece {
   Vec2 middle() const { return 0.5 * (a + b); }
 };
 
-bool cross_or_touch(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-  const auto side = [](const Vec2& u, const Vec2& v, const Vec2& p) {
-    return cross(v - u, p - u);
-  };
-  const bool parts_cd = side(a, b, c) * side(a, b, d) > 0.0;
-  const bool parts_ab = side(c, d, a) * side(c, d, b) > 0.0;
-  if (parts_cd || parts_ab) return false;
-  const bool overlap_x = std::max(a.x(), b.x()) >= std::min(c.x(), d.x()) &&
-                         std::max(c.x(), d.x()) >= std::min(a.x(), b.x());
-  const bool overlap_y = std::max(a.y(), b.y()) >= std::min(c.y(), d.y()) &&
-                         std::max(c.y(), d.y()) >= std::min(a.y(), b.y());
-  return overlap_x && overlap_y;
-}
-
 bool are_apart(const std::vector<Vec2>& one, const std::vector<Vec2>& other) {
   for (std::size_t i = 0; i < one.size(); ++i) {
     for (std::size_t j = 0; j < other.size(); ++j) {
-      if (cross_or_touch(one[i], one[(i + 1) % one.size()], other[j],
+      if (segments_touch(one[i], one[(i + 1) % one.size()], other[j],
                          other[(j + 1) % other.size()])) {
         return false;
       }

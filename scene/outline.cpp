@@ -65,24 +65,6 @@ std::string side_name(const Vec2& n) {
   return {};
 }
 
-bool segments_touch(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-  const auto side = [](const Vec2& p, const Vec2& q, const Vec2& r) {
-    return cross(q - p, r - p);
-  };
-  const auto between = [](const Vec2& p, const Vec2& q, const Vec2& r) {
-    return (r - p).dot(r - q) <= 0.0;
-  };
-  const double abc = side(a, b, c);
-  const double abd = side(a, b, d);
-  const double cda = side(c, d, a);
-  const double cdb = side(c, d, b);
-  if (abc == 0.0 && between(a, b, c)) return true;
-  if (abd == 0.0 && between(a, b, d)) return true;
-  if (cda == 0.0 && between(c, d, a)) return true;
-  if (cdb == 0.0 && between(c, d, b)) return true;
-  return (abc > 0.0) != (abd > 0.0) && (cda > 0.0) != (cdb > 0.0);
-}
-
 struct HalfThickness {
   double operator()(const BoxShape& box) const { return 0.5 * box.size.z(); }
   double operator()(const CylinderShape& cylinder) const {
@@ -203,6 +185,18 @@ double depth_inside(const std::vector<Vec2>& outline, const Vec2& p_O) {
 
 bool contains(const std::vector<Vec2>& outline, const Vec2& p_O) {
   return depth_inside(outline, p_O) >= -1e-12;
+}
+
+bool segments_touch(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  const auto side = [](const Vec2& p, const Vec2& q, const Vec2& r) {
+    return cross(q - p, r - p);
+  };
+  const auto overlap = [](double p, double q, double r, double s) {
+    return std::max(p, q) >= std::min(r, s) && std::max(r, s) >= std::min(p, q);
+  };
+  // Rounding decides the sides of segments on one line: their boxes part them.
+  return side(a, b, c) * side(a, b, d) <= 0.0 && side(c, d, a) * side(c, d, b) <= 0.0 &&
+         overlap(a.x(), b.x(), c.x(), d.x()) && overlap(a.y(), b.y(), c.y(), d.y());
 }
 
 bool is_simple(const std::vector<Vec2>& outline) {

@@ -60,6 +60,9 @@ bool contains(const std::vector<Vec2>& outline, const Vec2& p_O);
 /// Distance from p to the border, positive inside, negative outside [m].
 double depth_inside(const std::vector<Vec2>& outline, const Vec2& p_O);
 
+/// Whether segments ab and cd cross or touch. Where rounding hides it: that they do.
+bool segments_touch(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d);
+
 /// Whether no two edges of the polygon cross or touch beyond their shared vertex.
 bool is_simple(const std::vector<Vec2>& outline);
 

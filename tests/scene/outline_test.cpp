@@ -75,6 +75,25 @@ TEST(Outline, SimplePolygonsOnly) {
   EXPECT_FALSE(is_simple({{0, 0}, {1, 0}, {0.5, 0.0}, {0, 1}}));
 }
 
+TEST(Outline, VerticesAlongOneEdgeDoNotCrossIt) {
+  for (int turn = 0; turn < 100; ++turn) {
+    const Vec2 along(std::cos(0.01 * turn), std::sin(0.01 * turn));
+    std::vector<Vec2> outline = {perp(along)};
+    for (int k = 0; k < 30; ++k) outline.push_back(0.1 * k * along);
+    EXPECT_TRUE(is_simple(outline)) << turn;
+  }
+}
+
+TEST(Outline, SegmentsTouchWhereTheyMeet) {
+  const Vec2 a(0, 0);
+  const Vec2 b(2, 0);
+  EXPECT_TRUE(segments_touch(a, b, {1, -1}, {1, 1}));
+  EXPECT_TRUE(segments_touch(a, b, {1, 0}, {1, 1}));
+  EXPECT_TRUE(segments_touch(a, b, {1, 0}, {3, 0}));
+  EXPECT_FALSE(segments_touch(a, b, {3, 0}, {4, 0}));
+  EXPECT_FALSE(segments_touch(a, b, {1, 1e-9}, {1, 1}));
+}
+
 TEST(Outline, InertiaOfKnownBodies) {
   Object box{BoxShape{{0.1, 0.06, 0.03}}, 0.5, {}, {}};
   EXPECT_NEAR(moment_of_inertia(box), 0.5 * (0.01 + 0.0036) / 12.0, 1e-12);

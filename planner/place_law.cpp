@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "mechanics/pad_drag.h"
-
 namespace prehensile {
 namespace {
 
@@ -28,6 +26,9 @@ constexpr double kHopeless = 0.25;
 /// more points.
 constexpr int kAngles = 8;
 constexpr int kAnglesOfClippedDiscs = 3;
+
+/// Keeps the friction of a point at rest from being no number: it adds nothing.
+constexpr float kAtRest = 1e-30F;
 
 std::vector<DirectedDrag::Slope> slopes_up_to(double most_kappa, int count) {
   std::vector<DirectedDrag::Slope> slopes;
@@ -53,24 +54,44 @@ KappaRanges common(const KappaRanges& one, const KappaRanges& other) noexcept {
   return both;
 }
 
+bool PadsAtPlace::are_whole_at(const Model& model, const Vec2& p_OF) {
+  return !can_roll(model.scene.object) &&
+         model.region.is_whole(pose_from_finger(p_OF, 0.0));
+}
+
 PadsAtPlace::PadsAtPlace(const Model& model, const Vec2& p_OF)
-    : are_whole_(!can_roll(model.scene.object) &&
-                 model.region.is_whole(pose_from_finger(p_OF, 0.0))) {
+    : are_whole_(are_whole_at(model, p_OF)) {
   const bool discs = model.region.is_isotropic() || can_roll(model.scene.object);
   const int angles = model.has_soft_points() ? 1
                      : are_whole_ || !discs  ? kAngles
                                              : kAnglesOfClippedDiscs;
   for (int k = 0; k < angles; ++k) {
     const double theta = 2.0 * std::numbers::pi * k / angles;
-    PlanarGrasp grasp = grasp_at(model, pose_from_finger(p_OF, theta), Vec2::Zero());
+    const PlanarGrasp grasp =
+        grasp_at(model, pose_from_finger(p_OF, theta), Vec2::Zero());
     if (grasp.count == 0) continue;
-    for (int j = 0; j < grasp.count; ++j) {
-      const Vec2 r = rotated(-theta, Vec2(grasp.x[j], grasp.y[j]));
-      grasp.x[j] = r.x();
-      grasp.y[j] = r.y();
+    Points& points = at_angles_.emplace_back();
+    for (Column* column : {&points.x, &points.y, &points.share}) {
+      column->resize(grasp.count);
     }
-    grasps_.push_back(grasp);
+    for (int j = 0; j < grasp.count; ++j) {
+      const Vec2 r = rotated(-theta, Vec2(grasp.x[j], grasp.y[j])) / model.c;
+      points.x[j] = static_cast<float>(r.x());
+      points.y[j] = static_cast<float>(r.y());
+      points.share[j] = static_cast<float>(grasp.bound[j] / model.F);
+    }
   }
+}
+
+PadsAtPlace::Drag PadsAtPlace::drag(int angle, const Vec2& velocity,
+                                    double turning) const noexcept {
+  const Points& points = at_angles_[static_cast<std::size_t>(angle)];
+  const auto omega = static_cast<float>(turning);
+  const Column vx = static_cast<float>(velocity.x()) - omega * points.y;
+  const Column vy = static_cast<float>(velocity.y()) + omega * points.x;
+  const Column rate = points.share / (vx.square() + vy.square() + kAtRest).sqrt();
+  return {{(rate * vx).sum(), (rate * vy).sum()},
+          (rate * (points.x * vy - points.y * vx)).sum()};
 }
 
 DirectedDrag::DirectedDrag(const Model& model, const PadsAtPlace& pads, const Vec2& e,
@@ -79,7 +100,7 @@ DirectedDrag::DirectedDrag(const Model& model, const PadsAtPlace& pads, const Ve
       pads_(pads),
       e_(e),
       slopes_(slopes_for(pads, steepness)),
-      angles_(pads.grasps().size()),
+      angles_(static_cast<std::size_t>(pads.angles())),
       samples_(slopes_.size() * angles_) {}
 
 DirectedDrag::DirectedDrag(DirectedDrag* other) noexcept
@@ -120,11 +141,9 @@ DirectedDrag::Sample DirectedDrag::sample(std::size_t slope, std::size_t angle) 
     sample.moment = turning;
     return sample;
   }
-  const PlanarGrasp& grasp = pads_.grasps()[angle];
-  const PadDrag drag = drag_of_points(grasp.count, grasp.x, grasp.y, grasp.bound, 1.0,
-                                      velocity, turning / model_.c);
-  sample.force = drag.force / model_.F;
-  sample.moment = drag.moment / (model_.F * model_.c);
+  const auto drag = pads_.drag(static_cast<int>(angle), velocity, turning);
+  sample.force = drag.force;
+  sample.moment = drag.moment;
   return sample;
 }
 

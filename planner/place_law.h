@@ -31,14 +31,29 @@ class PadsAtPlace {
 
   /// Alike at all such places.
   bool are_whole() const { return are_whole_; }
+  static bool are_whole_at(const Model& model, const Vec2& p_OF);
 
   /// They do not touch the object.
-  bool are_lost() const { return grasps_.empty(); }
+  bool are_lost() const { return at_angles_.empty(); }
 
-  const std::vector<PlanarGrasp>& grasps() const { return grasps_; }
+  int angles() const { return static_cast<int>(at_angles_.size()); }
+
+  /// Friction that overcomes them at one of the angles, over F and F c.
+  struct Drag {
+    Vec2 force = Vec2::Zero();
+    double moment = 0.0;
+  };
+  /// `turning`: c times the rate of turn of the object, in the scale of its velocity (in
+  /// O). In single precision: many are looked at, each for a few digits. No heap.
+  Drag drag(int angle, const Vec2& velocity, double turning) const noexcept;
 
  private:
-  std::vector<PlanarGrasp> grasps_;  // points about the finger axis, in O; weightless
+  using Column = Eigen::Array<float, Eigen::Dynamic, 1, 0, PlanarGrasp::kCapacity, 1>;
+  struct Points {
+    Column x, y;   // about the finger axis, in O, over c
+    Column share;  // of F
+  };
+  std::vector<Points> at_angles_;
   bool are_whole_;
 };
 

@@ -53,15 +53,19 @@ class Asked {
     }
   }
 
-  double slack(const Eigen::Vector3d& motion, const Eigen::Vector3d& friction) const {
+  /// `friction()` is asked for where some contact can advance.
+  template <class Friction>
+  double slack(const Eigen::Vector3d& motion, const Friction& friction) const {
     double most = -kInfinity;
+    std::optional<Eigen::Vector3d> known;
     for (const Of& asked : asked_) {
       const PushContact& contact = *asked.contact;
       const auto advance = [&](const Vec2& end) {
         return advance_at(end, contact, p_OF_, model_.c, motion);
       };
       if (std::max(advance(contact.a), advance(contact.b)) < 0.0) continue;
-      most = std::max(most, asked.demands.slack(friction));
+      if (!known) known = friction();
+      most = std::max(most, asked.demands.slack(*known));
     }
     return most;
   }
@@ -167,20 +171,22 @@ PlaceSlacks::Profile PlaceSlacks::looked_at(const Vec2& p_OF) const {
     for (int k = 0; k < kDirections; ++k) {
       const Vec2 e = -towards(FreeDirections::direction(k));
       slacks[k] = most_over_slopes(kSlopes, [&](double angle) {
-        return asked.slack(motion_along(e, angle), friction_of_whole(angle, e));
+        return asked.slack(motion_along(e, angle),
+                           [&] { return friction_of_whole(angle, e); });
       });
     }
     return slacks;
   }
-  const SpreadPads pads(model_, p_OF, kAnglesOfFinder);
+  const QuickSpreadPads pads(model_, p_OF, kAnglesOfFinder);
   if (pads.are_lost()) return slacks;
   for (int k = 0; k < kDirections; k += kStrideWhereClipped) {
     const Vec2 e = -towards(FreeDirections::direction(k));
     slacks[k] = most_over_slopes(kSlopesWhereClipped, [&](double angle) {
       const Eigen::Vector3d motion = motion_along(e, angle);
-      const PadDrag drag = pads.drag(motion.head<2>(), motion[2] / model_.c);
-      return asked.slack(motion,
-                         {drag.force.x(), drag.force.y(), drag.moment / model_.c});
+      return asked.slack(motion, [&] {
+        const PadDrag drag = pads.drag(motion.head<2>(), motion[2] / model_.c);
+        return Eigen::Vector3d(drag.force.x(), drag.force.y(), drag.moment / model_.c);
+      });
     });
   }
   for (int k = 1; k < kDirections; k += kStrideWhereClipped) {

@@ -15,7 +15,8 @@ namespace {
 constexpr double kApart = 0.125;
 
 /// [m^2/s^2] Keeps the friction of a point at rest from being no number: it adds nothing.
-constexpr double kAtRest = 1e-300;
+template <class Scalar>
+constexpr Scalar kAtRest = std::numeric_limits<Scalar>::min();
 
 }  // namespace
 
@@ -24,7 +25,9 @@ bool has_clipped_discs(const Model& model) {
          !can_roll(model.scene.object) && model.F > 0.0 && model.c > 0.0;
 }
 
-SpreadPads::SpreadPads(const Model& model, const Vec2& p_OF, int angles) noexcept {
+template <class Scalar>
+SpreadPadsOf<Scalar>::SpreadPadsOf(const Model& model, const Vec2& p_OF,
+                                   int angles) noexcept {
   for (Column* column : {&x_, &y_, &share_}) column->resize(column->MaxSizeAtCompileTime);
   Eigen::Index count = 0;
   for (int k = 0; k < angles; ++k) {
@@ -37,27 +40,34 @@ SpreadPads::SpreadPads(const Model& model, const Vec2& p_OF, int angles) noexcep
     }
     for (int j = 0; j < grasp.count; ++j) {
       const Vec2 r = rotated(-theta, Vec2(grasp.x[j], grasp.y[j]));
-      x_[count] = r.x();
-      y_[count] = r.y();
-      share_[count] = grasp.bound[j] / (angles * model.F);
+      x_[count] = static_cast<Scalar>(r.x());
+      y_[count] = static_cast<Scalar>(r.y());
+      share_[count] = static_cast<Scalar>(grasp.bound[j] / (angles * model.F));
       ++count;
     }
   }
   for (Column* column : {&x_, &y_, &share_}) column->conservativeResize(count);
 }
 
-PadDrag SpreadPads::drag(const Vec2& velocity, double omega) const noexcept {
-  const Column vx = velocity.x() - omega * y_;
-  const Column vy = velocity.y() + omega * x_;
-  const Column rate = share_ / (vx.square() + vy.square() + kAtRest).sqrt();
+template <class Scalar>
+PadDrag SpreadPadsOf<Scalar>::drag(const Vec2& velocity, double omega) const noexcept {
+  const auto rate_of_turn = static_cast<Scalar>(omega);
+  const Column vx = static_cast<Scalar>(velocity.x()) - rate_of_turn * y_;
+  const Column vy = static_cast<Scalar>(velocity.y()) + rate_of_turn * x_;
+  const Column rate = share_ / (vx.square() + vy.square() + kAtRest<Scalar>).sqrt();
   return {{(rate * vx).sum(), (rate * vy).sum()}, (rate * (x_ * vy - y_ * vx)).sum()};
 }
 
-double SpreadPads::power(const Vec2& velocity, double omega) const noexcept {
-  const auto vx = velocity.x() - omega * y_;
-  const auto vy = velocity.y() + omega * x_;
+template <class Scalar>
+double SpreadPadsOf<Scalar>::power(const Vec2& velocity, double omega) const noexcept {
+  const auto rate_of_turn = static_cast<Scalar>(omega);
+  const auto vx = static_cast<Scalar>(velocity.x()) - rate_of_turn * y_;
+  const auto vy = static_cast<Scalar>(velocity.y()) + rate_of_turn * x_;
   return (share_ * (vx.square() + vy.square()).sqrt()).sum();
 }
+
+template class SpreadPadsOf<double>;
+template class SpreadPadsOf<float>;
 
 double spread_slack(const Model& model, const PushContact& contact, const Vec2& p_OF,
                     const Vec2& velocity, double omega) noexcept {

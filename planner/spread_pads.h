@@ -14,15 +14,16 @@ namespace prehensile {
 /// Whether the pads are discs on flat faces that clip them where they overhang.
 bool has_clipped_discs(const Model& model);
 
-/// No heap.
-class SpreadPads {
+/// Added up in numbers of some kind. No heap.
+template <class Scalar>
+class SpreadPadsOf {
  public:
   static constexpr int kMostAngles = 11;
 
-  SpreadPads() = default;  ///< lost ones
+  SpreadPadsOf() = default;  ///< lost ones
   /// Spread over so many angles: prime, so that points which are alike at every share of
   /// a turn lie evenly.
-  SpreadPads(const Model& model, const Vec2& p_OF, int angles = kMostAngles) noexcept;
+  SpreadPadsOf(const Model& model, const Vec2& p_OF, int angles = kMostAngles) noexcept;
 
   /// They do not touch the object.
   bool are_lost() const { return share_.size() == 0; }
@@ -37,10 +38,15 @@ class SpreadPads {
 
  private:
   using Column =
-      Eigen::Array<double, Eigen::Dynamic, 1, 0, kMostAngles * PlanarGrasp::kCapacity, 1>;
+      Eigen::Array<Scalar, Eigen::Dynamic, 1, 0, kMostAngles * PlanarGrasp::kCapacity, 1>;
   Column x_, y_;  // of points about the finger axis, in O [m]
   Column share_;  // of F
 };
+
+using SpreadPads = SpreadPadsOf<double>;
+
+/// For who looks at many places and motions, each for a few digits.
+using QuickSpreadPads = SpreadPadsOf<float>;
 
 /// Least slack of a sticking instant with discs so spread: of the friction cone over F,
 /// and of the moments about the ends of the face over F c. The finger axis at p_OF moves

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mechanics/pad_drag.h"
 #include "tests/planner/planner_cases.h"
 #include "tests/support/random.h"
 
@@ -116,6 +117,35 @@ TEST(PlaceLaw, OfClippedDiscsIsThatOfTheRealPads) {
   EXPECT_GT(admitted, 200);
   EXPECT_GE(sticking, 0.97 * admitted);
   EXPECT_LE(by_closed_form, 0.9 * admitted);
+}
+
+/// In single precision, but for a point about which the object turns nearly.
+TEST(PlaceLaw, DragIsThatOfTheRealPads) {
+  Random random(5);
+  for (const Overhang overhang : {Overhang::kIgnore, Overhang::kClip}) {
+    Scene scene = testing::walled_square();
+    scene.overhang = overhang;
+    const Model model = prepare(scene);
+    for (int i = 0; i < 300; ++i) {
+      const Vec2 p_OF = random.in_box(0.05, 0.05);
+      const PadsAtPlace pads(model, p_OF);
+      EXPECT_EQ(pads.are_whole(), PadsAtPlace::are_whole_at(model, p_OF));
+      const double angle = random.in(-0.5, 0.5) * kPi;
+      const Vec2 velocity = std::cos(angle) * random.direction();
+      const double turning = std::sin(angle);
+      for (int k = 0; k < pads.angles(); ++k) {
+        const double theta = 2.0 * kPi * k / pads.angles();
+        const PlanarGrasp grasp =
+            grasp_at(model, pose_from_finger(p_OF, theta), Vec2::Zero());
+        const PadDrag real =
+            drag_of_points(grasp.count, grasp.x, grasp.y, grasp.bound, 1.0,
+                           rotated(theta, velocity), turning / model.c);
+        const PadsAtPlace::Drag drag = pads.drag(k, velocity, turning);
+        EXPECT_LT((rotated(theta, drag.force) - real.force / model.F).norm(), 1e-3);
+        EXPECT_NEAR(drag.moment, real.moment / (model.F * model.c), 1e-3);
+      }
+    }
+  }
 }
 
 TEST(PlaceLaw, CommonRangesAreInBoth) {

@@ -95,6 +95,26 @@ TEST(SpreadPads, FrictionIsTheDerivativeOfAConvexPower) {
   }
 }
 
+TEST(SpreadPads, QuickOnesAreTheSameToAFewDigits) {
+  const Model model = prepare(clipped_square());
+  Random random(6);
+  for (int i = 0; i < 500; ++i) {
+    const Vec2 p_OF = clipped_place(model, random);
+    const SpreadPads pads(model, p_OF, 5);
+    const QuickSpreadPads quick(model, p_OF, 5);
+    if (pads.are_lost()) {
+      EXPECT_TRUE(quick.are_lost());
+      continue;
+    }
+    const auto [velocity, omega] = random_twist(model.c, random);
+    const PadDrag drag = pads.drag(velocity, omega);
+    const PadDrag other = quick.drag(velocity, omega);
+    EXPECT_LT((drag.force - other.force).norm(), 1e-4);
+    EXPECT_NEAR(drag.moment, other.moment, 1e-4 * model.c);
+    EXPECT_NEAR(pads.power(velocity, omega), quick.power(velocity, omega), 1e-5);
+  }
+}
+
 TEST(SpreadPads, SlackAlongIsTheLeastOfItsPlaces) {
   const Model model = prepare(clipped_square());
   Random random(4);

@@ -43,12 +43,14 @@ std::vector<Move> cheaper_by_pairs(const SearchModel& search, std::vector<Move> 
 
 std::vector<Move> cheaper_by_walk(const SearchModel& search, const FlatState& start,
                                   const GoalPlaces& goals, std::vector<Move> moves,
-                                  const Limits& limits, Work& work) {
+                                  WalkLattices& lattices, const Limits& limits,
+                                  Work& work) {
   const double cost = cost_of(search, moves);
   if (cost < kWorthWalk) return moves;
   enter("cheaper walk", cost, work);
   auto walk = within_budget(work, share_of_left(work, kShareOfWalk), [&] {
-    return search_walks(search, start, goals, WalkTurns::kFew, cost, limits, work);
+    return search_walks(search, start, goals, WalkTurns::kFew, cost, lattices, limits,
+                        work);
   });
   if (walk && cost_of(search, *walk) < cost) moves = std::move(*walk);
   if (work.meter) work.meter->found(cost_of(search, moves));

@@ -11,6 +11,7 @@
 
 #include "planner/goal.h"
 #include "planner/limits.h"
+#include "planner/walk_lattice.h"
 
 namespace prehensile {
 
@@ -29,6 +30,7 @@ std::vector<Move> cheaper_by_pairs(const SearchModel& search, std::vector<Move> 
 /// A walk over a fine lattice takes the place of all.
 std::vector<Move> cheaper_by_walk(const SearchModel& search, const FlatState& start,
                                   const GoalPlaces& goals, std::vector<Move> moves,
-                                  const Limits& limits, Work& work);
+                                  WalkLattices& lattices, const Limits& limits,
+                                  Work& work);
 
 }  // namespace prehensile

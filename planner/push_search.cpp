@@ -79,16 +79,19 @@ std::optional<std::vector<Move>> search_with_real_pads(const SearchModel& search
 /// cheaper where it is dear. `best`: the plan so far, to be improved.
 bool plan_with_real_pads(const SearchModel& search, const FlatState& from,
                          const GoalPlaces& goals, std::optional<FoundChain> best,
-                         const Limits& limits, Work& work, Plan& plan) {
+                         WalkLattices& lattices, const Limits& limits, Work& work,
+                         Plan& plan) {
   auto moves = search_with_real_pads(search, from, goals, std::move(best), limits, work);
   const bool is_walk = !moves;
   if (is_walk) {
-    moves = search_walks(search, from, goals, WalkTurns::kFew, kInfinity, limits, work);
+    moves = search_walks(search, from, goals, WalkTurns::kFew, kInfinity, lattices,
+                         limits, work);
   }
   if (!moves) return false;
   moves = cheaper_by_pairs(search, std::move(*moves), limits, work);
   if (!is_walk) {
-    moves = cheaper_by_walk(search, from, goals, std::move(*moves), limits, work);
+    moves =
+        cheaper_by_walk(search, from, goals, std::move(*moves), lattices, limits, work);
   }
   for (const Move& move : *moves) append_move(search, move, plan);
   return true;
@@ -114,7 +117,7 @@ std::optional<std::vector<Move>> search_within_tolerance(const SearchModel& sear
 
 /// Fills the pushes in the pad plane; false if none were found.
 bool plan_in_plane(const SearchModel& search, const Grasp& start, const Goal& goal,
-                   const Limits& limits, Work& work, Plan& plan) {
+                   WalkLattices& lattices, const Limits& limits, Work& work, Plan& plan) {
   const FlatState from = flat_state(start);
   const GoalPlaces goals = goal_places(*search.model, goal, from);
   if (const auto move = direct_push(search, from, goals, work)) {
@@ -136,29 +139,31 @@ bool plan_in_plane(const SearchModel& search, const Grasp& start, const Goal& go
     append_chain(search, from, found->chain, plan);
     return true;
   }
-  return plan_with_real_pads(search, from, goals, found, limits, work, plan);
+  return plan_with_real_pads(search, from, goals, found, lattices, limits, work, plan);
 }
 
 /// The stages of more than two pushes once more, to places that are off the goal by up to
 /// its tolerances.
 bool plan_beside_goal(const SearchModel& search, const Grasp& start, const Goal& goal,
-                      const Limits& limits, Work& work, Plan& plan) {
+                      WalkLattices& lattices, const Limits& limits, Work& work,
+                      Plan& plan) {
   const FlatState from = flat_state(start);
   const GoalPlaces places = tolerated_places(*search.model, goal, from);
   if (places.count == 0) return false;
   const double bound = guide_bound(*search.model, start, goal);
   const auto found = search_chains(search, from, places, bound, limits, work);
-  return plan_with_real_pads(search, from, places, found, limits, work, plan);
+  return plan_with_real_pads(search, from, places, found, lattices, limits, work, plan);
 }
 
 /// Walks that wind the object up: to the goal with half of the work, then beside it.
 bool plan_by_many_turns(const SearchModel& search, const Grasp& start, const Goal& goal,
-                        const Limits& limits, Work& work, Plan& plan) {
+                        WalkLattices& lattices, const Limits& limits, Work& work,
+                        Plan& plan) {
   const FlatState from = flat_state(start);
   const auto walk_to = [&](const GoalPlaces& places, std::int64_t budget) {
     const auto moves = within_budget(work, budget, [&] {
-      return search_walks(search, from, places, WalkTurns::kMany, kInfinity, limits,
-                          work);
+      return search_walks(search, from, places, WalkTurns::kMany, kInfinity, lattices,
+                          limits, work);
     });
     if (!moves) return false;
     const auto cheaper = cheaper_by_pairs(search, *moves, limits, work);
@@ -206,6 +211,7 @@ constexpr double kShareOfManyTurns = 0.1;
 bool plan_in_shares(const SearchModel& search, const Grasp& start, const Goal& goal,
                     const PlanOptions& options, Work& work, Plan& plan) {
   const Limits limits(options, work);
+  WalkLattices lattices;
   const double share = setting(
       *find_planner(kOwnPlanner), options.settings,
       search.model->scene.obstacles ? "fallback_share_obstacles" : "fallback_share");
@@ -217,7 +223,7 @@ bool plan_in_shares(const SearchModel& search, const Grasp& start, const Goal& g
   const std::int64_t of_turns =
       search.model->scene.obstacles ? 0 : share_of_left(kShareOfManyTurns);
   work.budget = whole - of_fallback - of_turns;
-  const bool exact = plan_in_plane(search, start, goal, limits, work, plan);
+  const bool exact = plan_in_plane(search, start, goal, lattices, limits, work, plan);
   work.budget = whole;
   if (exact || limits.reached() || search.contacts.empty()) return exact;
   if (plan_by_fallback(search, start, goal, options, limits, of_fallback, work, plan)) {
@@ -225,11 +231,11 @@ bool plan_in_shares(const SearchModel& search, const Grasp& start, const Goal& g
   }
   if (work.meter) work.meter->enter("beside the goal");
   work.budget = whole - of_turns;
-  const bool beside = plan_beside_goal(search, start, goal, limits, work, plan);
+  const bool beside = plan_beside_goal(search, start, goal, lattices, limits, work, plan);
   work.budget = whole;
   if (beside) return true;
   if (work.meter) work.meter->enter("many turns");
-  return plan_by_many_turns(search, start, goal, limits, work, plan);
+  return plan_by_many_turns(search, start, goal, lattices, limits, work, plan);
 }
 
 bool rolls_on_way(const SearchModel& search, Plan plan, double dpsi,

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <ranges>
+#include <utility>
 
 #include "planner/chain.h"
 #include "planner/costs.h"
@@ -41,11 +43,12 @@ WalkLattice::WalkLattice(const SearchModel& search, const FlatState& start,
   for (const SearchContact& contact : search.contacts) {
     weak_.push_back(weakened(contact, search.margin));
   }
-  add_nodes(start, goals);
+  add_nodes();
   add_steps();
+  set_ends(start, goals);
 }
 
-void WalkLattice::add_nodes(const FlatState& start, const GoalPlaces& goals) {
+void WalkLattice::add_nodes() {
   at_grid_.assign(grid_.count(), -1);
   for (int k = 0; k < grid_.count(); ++k) {
     if (depth_inside(model_.pad_face, grid_.place(k)) < 0.0) continue;
@@ -54,8 +57,29 @@ void WalkLattice::add_nodes(const FlatState& start, const GoalPlaces& goals) {
     on_grid_.push_back(k);
   }
   start_ = static_cast<int>(nodes_.size());
+}
+
+void WalkLattice::set_ends(const FlatState& start, const GoalPlaces& goals) {
+  for (const Narrowed& narrowed : std::views::reverse(narrowed_)) {
+    WalkEdge& edge = nodes_[narrowed.node].edges[narrowed.edge];
+    edge.lo = narrowed.lo;
+    edge.hi = narrowed.hi;
+  }
+  narrowed_.clear();
+  nodes_.resize(static_cast<std::size_t>(start_));
+  for (Node& node : nodes_) {
+    node.edges.resize(node.steps);
+    node.knows_goals = false;
+  }
   nodes_.push_back({start.p_OF});
   for (int i = 0; i < goals.count; ++i) nodes_.push_back({goals.places[i].p_OF});
+}
+
+void WalkLattice::narrow(int node, int edge, double lo, double hi) {
+  WalkEdge& narrower = nodes_[node].edges[edge];
+  narrowed_.push_back({node, edge, narrower.lo, narrower.hi});
+  narrower.lo = lo;
+  narrower.hi = hi;
 }
 
 void WalkLattice::add_steps() {
@@ -86,10 +110,9 @@ void WalkLattice::find_slopes(Node& node, Work& work) {
   if (!node.slopes.empty()) return;
   find_held(node, work);
   node.slopes.resize(steps_.size() * contacts_);
-  const PadsAtPlace pads(model_, node.p_OF);
-  if (pads.are_lost()) return;
-  if (pads.are_whole() && !whole_pads_) {
-    whole_pads_ = pads;
+  const bool whole = PadsAtPlace::are_whole_at(model_, node.p_OF);
+  if (whole && !whole_pads_) {
+    whole_pads_.emplace(model_, node.p_OF);
     for (const Step& step : steps_) {
       whole_drags_.emplace_back(model_, *whole_pads_, step.e, steepness_);
     }
@@ -100,10 +123,12 @@ void WalkLattice::find_slopes(Node& node, Work& work) {
       node.slopes[s * contacts_ + k] = slopes_along(node, k, drag);
     }
   };
-  if (pads.are_whole()) {
+  if (whole) {
     for (std::size_t s = 0; s < steps_.size(); ++s) keep(s, whole_drags_[s]);
     return;
   }
+  const PadsAtPlace pads(model_, node.p_OF);
+  if (pads.are_lost()) return;
   // The last step is the first one back, and so on.
   for (std::size_t s = 0; s < steps_.size() / 2; ++s) {
     DirectedDrag drag(model_, pads, steps_[s].e, steepness_);
@@ -128,42 +153,61 @@ void WalkLattice::add_steps_from(int index, Work& work, std::vector<WalkEdge>& e
   find_slopes(node, work);
   const int i = grid_.column(on_grid_[index]);
   const int j = grid_.row(on_grid_[index]);
-  std::vector<KappaRanges> slopes(static_cast<std::size_t>(contacts_));
   for (std::size_t s = 0; s < steps_.size(); ++s) {
     const Step& step = steps_[s];
     if (!grid_.has(i + step.i, j + step.j)) continue;
     const int to = at_grid_[grid_.index(i + step.i, j + step.j)];
     if (to < 0 || !segment_on_object(model_, node.p_OF, place(to))) continue;
     find_slopes(nodes_[to], work);
-    for (int k = 0; k < contacts_; ++k) {
-      const std::size_t at = s * contacts_ + k;
-      slopes[k] = common(node.slopes[at], nodes_[to].slopes[at]);
-    }
-    look_between(node.p_OF, place(to), step.e, slopes, work);
+    OfContacts slopes = slopes_of_step(s, node, nodes_[to]);
+    look_between(index, to, s, slopes, work);
     for (int k = 0; k < contacts_; ++k) {
       add_edges(slopes[k], k, to, step.length, edges);
     }
   }
 }
 
+WalkLattice::OfContacts WalkLattice::slopes_of_step(std::size_t step, const Node& from,
+                                                    const Node& to) const {
+  OfContacts slopes(static_cast<std::size_t>(contacts_));
+  for (int k = 0; k < contacts_; ++k) {
+    const std::size_t at = step * contacts_ + k;
+    slopes[k] = common(from.slopes[at], to.slopes[at]);
+  }
+  return slopes;
+}
+
 /// Keeps the slopes that stick half way as well: where the face clips the pads the ends
-/// do not decide.
-void WalkLattice::look_between(const Vec2& from, const Vec2& to, const Vec2& e,
-                               std::vector<KappaRanges>& slopes, Work& work) const {
-  const auto is_any = [](const KappaRanges& ranges) { return ranges.count > 0; };
-  if (std::ranges::none_of(slopes, is_any)) return;
-  const Vec2 middle = 0.5 * (from + to);
-  const PadsAtPlace pads(model_, middle);
-  if (pads.are_whole()) return;
-  ++work.other;
-  if (pads.are_lost()) {
-    std::ranges::fill(slopes, KappaRanges());
+/// do not decide. What the step back needs is found with it.
+void WalkLattice::look_between(int from, int to, std::size_t step, OfContacts& slopes,
+                               Work& work) {
+  const Vec2 middle = 0.5 * (place(from) + place(to));
+  if (PadsAtPlace::are_whole_at(model_, middle)) return;
+  const std::size_t back = steps_.size() - 1 - step;
+  if (const auto known = backwards_.find(from * steps_.size() + step);
+      known != backwards_.end()) {
+    slopes = std::move(known->second);
+    backwards_.erase(known);
     return;
   }
-  DirectedDrag drag(model_, pads, e, steepness_);
-  for (int k = 0; k < contacts_; ++k) {
-    if (is_any(slopes[k])) slopes[k] = common(slopes[k], drag.kappas(weak_[k], middle));
+  OfContacts slopes_back = slopes_of_step(back, nodes_[to], nodes_[from]);
+  const auto is_any = [](const KappaRanges& ranges) { return ranges.count > 0; };
+  if (std::ranges::any_of(slopes, is_any) || std::ranges::any_of(slopes_back, is_any)) {
+    ++work.other;
+    const PadsAtPlace pads(model_, middle);
+    DirectedDrag drag(model_, pads, steps_[step].e, steepness_);
+    DirectedDrag drag_back = drag.opposite();
+    const auto keep = [&](DirectedDrag& along, KappaRanges& ranges, int contact) {
+      if (!is_any(ranges)) return;
+      ranges = pads.are_lost() ? KappaRanges()
+                               : common(ranges, along.kappas(weak_[contact], middle));
+    };
+    for (int k = 0; k < contacts_; ++k) {
+      keep(drag, slopes[k], k);
+      keep(drag_back, slopes_back[k], k);
+    }
   }
+  if (!nodes_[to].knows_steps) backwards_.emplace(to * steps_.size() + back, slopes_back);
 }
 
 /// Between the start or a goal and any other place.
@@ -187,18 +231,39 @@ void WalkLattice::add_given(int from, int to, Work& work, std::vector<WalkEdge>&
   }
 }
 
-std::vector<WalkEdge>& WalkLattice::edges_from(int node, Work& work) {
-  auto& edges = nodes_[node].edges;
-  if (edges) return *edges;
-  edges.emplace();
-  if (node < start_) add_steps_from(node, work, *edges);
-  if (node == start_) {
-    for (int to = 0; to < start_; ++to) add_given(node, to, work, *edges);
+const std::vector<WalkEdge>& WalkLattice::edges_from(int index, Work& work) {
+  Node& node = nodes_[index];
+  if (!node.knows_steps) {
+    node.knows_steps = true;
+    if (index < start_) add_steps_from(index, work, node.edges);
+    for (int to = 0; index == start_ && to < start_; ++to) {
+      add_given(index, to, work, node.edges);
+    }
+    node.steps = node.edges.size();
   }
-  if (node <= start_) {
-    for (int to = start_ + 1; to < nodes(); ++to) add_given(node, to, work, *edges);
+  if (!node.knows_goals) {
+    node.knows_goals = true;
+    for (int to = start_ + 1; index <= start_ && to < nodes(); ++to) {
+      add_given(index, to, work, node.edges);
+    }
   }
-  return *edges;
+  return node.edges;
+}
+
+WalkLattice& WalkLattices::between(const SearchModel& search, const FlatState& start,
+                                   const GoalPlaces& goals, int per_side,
+                                   Steepness steepness) {
+  if (search_ != &search || steepness_ != steepness) by_nodes_per_side_.clear();
+  search_ = &search;
+  steepness_ = steepness;
+  const auto known = by_nodes_per_side_.find(per_side);
+  if (known == by_nodes_per_side_.end()) {
+    return by_nodes_per_side_
+        .try_emplace(per_side, search, start, goals, per_side, steepness)
+        .first->second;
+  }
+  known->second.set_ends(start, goals);
+  return known->second;
 }
 
 }  // namespace prehensile

@@ -2,7 +2,9 @@
 /// turn. Internal to the planner.
 #pragma once
 
+#include <map>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "planner/goal.h"
@@ -27,6 +29,9 @@ class WalkLattice {
   WalkLattice(const WalkLattice&) = delete;
   WalkLattice& operator=(const WalkLattice&) = delete;
 
+  /// Another start and other goals; no edge is narrowed any more.
+  void set_ends(const FlatState& start, const GoalPlaces& goals);
+
   int nodes() const { return static_cast<int>(nodes_.size()); }
   int start() const { return start_; }
   const Vec2& place(int node) const { return nodes_[node].p_OF; }
@@ -34,16 +39,24 @@ class WalkLattice {
   /// The index of the goal that a node is the place of, or negative.
   int goal_at(int node) const { return node - start_ - 1; }
 
-  /// The pushes from a node, from when they are first asked for; to be cut by who finds
-  /// that one does not stick.
-  std::vector<WalkEdge>& edges_from(int node, Work& work);
+  /// The pushes from a node, from when they are first asked for.
+  const std::vector<WalkEdge>& edges_from(int node, Work& work);
+
+  /// What one of them is found to produce, until other ends are set.
+  void narrow(int node, int edge, double lo, double hi);
 
  private:
   struct Node {
     Vec2 p_OF;
     std::vector<char> held = {};           // by contact; empty: not known yet
     std::vector<KappaRanges> slopes = {};  // by step and contact
-    std::optional<std::vector<WalkEdge>> edges = {};
+    bool knows_steps = false, knows_goals = false;
+    std::size_t steps = 0;  // of the edges; the others lead to goals
+    std::vector<WalkEdge> edges = {};
+  };
+  struct Narrowed {
+    int node, edge;
+    double lo, hi;  // before
   };
   struct Step {
     int i, j;
@@ -51,13 +64,14 @@ class WalkLattice {
     Vec2 e;         // motion of the object
   };
 
-  void add_nodes(const FlatState& start, const GoalPlaces& goals);
+  void add_nodes();
   void add_steps();
   void find_held(Node& node, Work& work) const;
   void find_slopes(Node& node, Work& work);
   KappaRanges slopes_along(Node& node, int contact, DirectedDrag& drag) const;
-  void look_between(const Vec2& from, const Vec2& to, const Vec2& e,
-                    std::vector<KappaRanges>& slopes, Work& work) const;
+  using OfContacts = std::vector<KappaRanges>;
+  OfContacts slopes_of_step(std::size_t step, const Node& from, const Node& to) const;
+  void look_between(int from, int to, std::size_t step, OfContacts& slopes, Work& work);
   void add_edges(const KappaRanges& slopes, int contact, int to, double length,
                  std::vector<WalkEdge>& edges) const;
   void add_steps_from(int index, Work& work, std::vector<WalkEdge>& edges);
@@ -75,7 +89,24 @@ class WalkLattice {
   std::vector<int> at_grid_;  // the node there, or -1
   int start_ = 0;
   std::optional<PadsAtPlace> whole_pads_;
-  std::vector<DirectedDrag> whole_drags_;  // by step
+  std::vector<DirectedDrag> whole_drags_;                  // by step
+  std::unordered_map<std::size_t, OfContacts> backwards_;  // of steps not yet asked for
+  std::vector<Narrowed> narrowed_;
+};
+
+/// Lattices that one walk search leaves to the next: what sticks between their nodes
+/// takes most of the time.
+class WalkLattices {
+ public:
+  /// Of the search that was asked for last, and of one steepness, to save memory.
+  /// `search` must outlive them.
+  WalkLattice& between(const SearchModel& search, const FlatState& start,
+                       const GoalPlaces& goals, int per_side, Steepness steepness);
+
+ private:
+  const SearchModel* search_ = nullptr;
+  Steepness steepness_ = Steepness::kUsual;
+  std::map<int, WalkLattice> by_nodes_per_side_;
 };
 
 }  // namespace prehensile

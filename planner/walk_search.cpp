@@ -203,7 +203,7 @@ class WalkSearch {
     for (int i = end.label; labels_[i].parent >= 0; i = labels_[i].parent) {
       const Label& label = labels_[i];
       const Label& before = labels_[label.parent];
-      WalkEdge& edge = lattice_.edges_from(before.node, work_)[label.edge];
+      const WalkEdge& edge = lattice_.edges_from(before.node, work_)[label.edge];
       const double share =
           label.hi > label.lo ? (turned - label.lo) / (label.hi - label.lo) : 0.5;
       const double low = std::max(before.lo, turned - edge.hi);
@@ -213,7 +213,7 @@ class WalkSearch {
       moves.push_back(
           {edge.contact, state(before.node, turned_before), state(label.node, turned)});
       if (!move_passes(search_, moves.back(), work_)) {
-        cut(turned - turned_before, edge);
+        cut(before.node, label.edge, edge, turned - turned_before);
         all_stick = false;
       }
       turned = turned_before;
@@ -228,12 +228,12 @@ class WalkSearch {
   }
 
   /// Leaves the longer part beside a turn that does not stick.
-  static void cut(double turn, WalkEdge& edge) {
+  void cut(int node, int index, const WalkEdge& edge, double turn) {
     const double aside = kShareOfTurns * (edge.hi - edge.lo) + kLeastTurn;
     if (edge.hi - turn > turn - edge.lo) {
-      edge.lo = turn + aside;
+      lattice_.narrow(node, index, turn + aside, edge.hi);
     } else {
-      edge.hi = turn - aside;
+      lattice_.narrow(node, index, edge.lo, turn - aside);
     }
   }
 
@@ -278,13 +278,13 @@ bool is_for_walks(const SearchModel& search) {
 std::optional<std::vector<Move>> search_walks(const SearchModel& search,
                                               const FlatState& start,
                                               const GoalPlaces& goals, WalkTurns turns,
-                                              double to_beat, const Limits& limits,
-                                              Work& work) {
+                                              double to_beat, WalkLattices& lattices,
+                                              const Limits& limits, Work& work) {
   if (!is_for_walks(search)) return std::nullopt;
   const Steepness steepness =
       turns == WalkTurns::kFew ? Steepness::kUsual : Steepness::kSteep;
   for (const int per_side : nodes_per_side(search, turns)) {
-    WalkLattice lattice(search, start, goals, per_side, steepness);
+    WalkLattice& lattice = lattices.between(search, start, goals, per_side, steepness);
     const auto contacts = static_cast<int>(search.contacts.size());
     if (lattice.nodes() * contacts > kMostStates) break;
     const auto moves =

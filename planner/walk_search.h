@@ -12,6 +12,7 @@
 
 #include "planner/goal.h"
 #include "planner/limits.h"
+#include "planner/walk_lattice.h"
 
 namespace prehensile {
 
@@ -24,11 +25,12 @@ enum class WalkTurns {
 /// Pushes to one of the goals, shortened from the cheapest walk over the lattice; each
 /// sticks with the real pads. A goal that is an angle is met at any whole turn. None
 /// among obstacles, for pads that need the mechanics in space, or if the lattice holds no
-/// walk cheaper than `to_beat` (infinity: any) or a limit is reached.
+/// walk cheaper than `to_beat` (infinity: any) or a limit is reached. `lattices`: kept
+/// for other walks of the same search.
 std::optional<std::vector<Move>> search_walks(const SearchModel& search,
                                               const FlatState& start,
                                               const GoalPlaces& goals, WalkTurns turns,
-                                              double to_beat, const Limits& limits,
-                                              Work& work);
+                                              double to_beat, WalkLattices& lattices,
+                                              const Limits& limits, Work& work);
 
 }  // namespace prehensile

@@ -41,8 +41,9 @@ TEST(Cheapen, DearMovesCostAFewPushes) {
     auto cheaper = cheaper_by_pairs(search, moves, limits, work);
     const double pairs = cost_of(search, cheaper);
     EXPECT_LE(pairs, cost_of(search, moves) + 1e-9) << i;
-    cheaper =
-        cheaper_by_walk(search, moves.front().from, end_of(moves), cheaper, limits, work);
+    WalkLattices lattices;
+    cheaper = cheaper_by_walk(search, moves.front().from, end_of(moves), cheaper,
+                              lattices, limits, work);
     EXPECT_LE(cost_of(search, cheaper), pairs + 1e-9) << i;
     EXPECT_TRUE(testing::is_detour_of(cheaper, moves)) << i;
     EXPECT_EQ(work.budget, 5'000'000);
@@ -64,8 +65,9 @@ TEST(Cheapen, CheapMovesStay) {
   Work work{.budget = testing::kNoBudget};
   const Limits limits(options, work);
   const auto by_pairs = cheaper_by_pairs(search, moves, limits, work);
-  const auto by_walk =
-      cheaper_by_walk(search, moves.front().from, end_of(moves), moves, limits, work);
+  WalkLattices lattices;
+  const auto by_walk = cheaper_by_walk(search, moves.front().from, end_of(moves), moves,
+                                       lattices, limits, work);
   EXPECT_EQ(cost_of(search, by_pairs), cost_of(search, moves));
   EXPECT_EQ(cost_of(search, by_walk), cost_of(search, moves));
   EXPECT_EQ(work.done(), 0);

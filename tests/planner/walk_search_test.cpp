@@ -31,8 +31,9 @@ std::optional<std::vector<Move>> walk_in(const SearchModel& search,
   const Limits limits(options, work);
   const FlatState start = flat_state(search.model->scene.start);
   const GoalPlaces goals = goal_places(*search.model, *search.model->scene.goal, start);
+  WalkLattices lattices;
   return search_walks(search, start, goals, WalkTurns::kFew,
-                      std::numeric_limits<double>::infinity(), limits, work);
+                      std::numeric_limits<double>::infinity(), lattices, limits, work);
 }
 
 /// Walks from the start to the goal by pushes that the exact mechanics does, too; the

@@ -1,0 +1,114 @@
+#include "planner/walk_lattice.h"
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "planner/push_search.h"
+#include "problems/random_fixtures.h"
+#include "tests/planner/planner_cases.h"
+
+namespace prehensile {
+namespace {
+
+constexpr int kNodesPerSide = 12;
+
+struct Case {
+  explicit Case(std::uint64_t index)
+      : scene(random_fixture({.object = FixtureObject::kConvex,
+                              .count = {1.0, 3.0},
+                              .goals = GoalsFrom::kRandom},
+                             3, index)
+                  ->scene),
+        model(prepare(scene)),
+        search(prepare_search(model, Margin::none())),
+        start(flat_state(scene.start)),
+        goals(goal_places(model, *scene.goal, start)) {}
+
+  Scene scene;
+  Model model;
+  SearchModel search;
+  FlatState start;
+  GoalPlaces goals;
+  Work work{.budget = testing::kNoBudget};
+};
+
+std::vector<WalkEdge> all_edges(WalkLattice& lattice, Work& work) {
+  std::vector<WalkEdge> all;
+  for (int node = 0; node < lattice.nodes(); ++node) {
+    const std::vector<WalkEdge>& edges = lattice.edges_from(node, work);
+    all.insert(all.end(), edges.begin(), edges.end());
+  }
+  return all;
+}
+
+void expect_same(const std::vector<WalkEdge>& edges,
+                 const std::vector<WalkEdge>& others) {
+  ASSERT_EQ(edges.size(), others.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    EXPECT_EQ(edges[i].to, others[i].to);
+    EXPECT_EQ(edges[i].contact, others[i].contact);
+    EXPECT_EQ(edges[i].lo, others[i].lo);
+    EXPECT_EQ(edges[i].hi, others[i].hi);
+    EXPECT_EQ(edges[i].cost, others[i].cost);
+  }
+}
+
+/// Whatever was asked for before, and however its edges were narrowed.
+TEST(WalkLattice, OtherEndsMakeItAnother) {
+  std::size_t edges = 0;
+  for (std::uint64_t i = 0; i < 6; ++i) {
+    Case c(i);
+    FlatState elsewhere = c.start;
+    elsewhere.p_OF *= 0.5;
+    GoalPlaces one = c.goals;
+    one.count = 1;
+    one.places[0].p_OF *= 0.7;
+    WalkLattice fresh(c.search, c.start, c.goals, kNodesPerSide, Steepness::kUsual);
+    WalkLattice other(c.search, elsewhere, one, kNodesPerSide, Steepness::kUsual);
+    for (const WalkEdge& edge : all_edges(other, c.work)) edges += edge.lo <= edge.hi;
+    for (int node = 0; node < other.start(); ++node) {
+      for (int k = 0; k < static_cast<int>(other.edges_from(node, c.work).size()); ++k) {
+        other.narrow(node, k, 1.0, 0.0);
+        other.narrow(node, k, 3.0, 2.0);
+      }
+    }
+    other.set_ends(c.start, c.goals);
+    expect_same(all_edges(other, c.work), all_edges(fresh, c.work));
+  }
+  EXPECT_GT(edges, 500);
+}
+
+/// An edge is the same whether the step back was asked for before it or after.
+TEST(WalkLattice, EdgesHaveNoOrder) {
+  for (std::uint64_t i = 0; i < 4; ++i) {
+    Case c(i);
+    WalkLattice forwards(c.search, c.start, c.goals, kNodesPerSide, Steepness::kUsual);
+    WalkLattice backwards(c.search, c.start, c.goals, kNodesPerSide, Steepness::kUsual);
+    for (int node = backwards.nodes() - 1; node >= 0; --node) {
+      backwards.edges_from(node, c.work);
+    }
+    expect_same(all_edges(backwards, c.work), all_edges(forwards, c.work));
+  }
+}
+
+TEST(WalkLattice, IsKeptForOtherEndsOfTheSameSearch) {
+  Case c(0);
+  Case d(1);
+  WalkLattices lattices;
+  const auto work_on = [&](Case& of, int per_side, Steepness steepness) {
+    Work work{.budget = testing::kNoBudget};
+    all_edges(lattices.between(of.search, of.start, of.goals, per_side, steepness), work);
+    return work.done();
+  };
+  const std::int64_t first = work_on(c, kNodesPerSide, Steepness::kUsual);
+  EXPECT_LT(4 * work_on(c, kNodesPerSide, Steepness::kUsual), first);
+  EXPECT_GT(work_on(c, 2 * kNodesPerSide, Steepness::kUsual), first);
+  EXPECT_LT(4 * work_on(c, kNodesPerSide, Steepness::kUsual), first);
+  EXPECT_EQ(work_on(c, kNodesPerSide, Steepness::kSteep), first);
+  const std::int64_t of_other = work_on(d, kNodesPerSide, Steepness::kSteep);
+  EXPECT_LT(4 * work_on(d, kNodesPerSide, Steepness::kSteep), of_other);
+}
+
+}  // namespace
+}  // namespace prehensile

@@ -126,9 +126,12 @@ ContactPoints ContactRegion::clipped_by_face(const PlanarPose& X_HO) const noexc
   double pressed = 0.0;
   for (const PadCell& cell : cells_) {
     total += cell.measure * cell.pressure;
-    const double depth = near.depth_at(frame.in_object(cell.centroid), cell.within);
+    const Vec2 middle = frame.in_object(cell.centroid);
     PressedCell part;
-    if (depth >= cell.reach) {
+    if (const auto* edge = near.only_edge_at(middle, cell.reach, cell.within)) {
+      part = press_at_edge(cell, edge->a, edge->b, frame);
+    } else if (const double depth = near.depth_at(middle, cell.within);
+               depth >= cell.reach) {
       part = {cell.measure, cell.centroid};
     } else if (depth > -cell.reach) {
       part = press(cell, pieces_, frame);

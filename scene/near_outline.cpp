@@ -46,4 +46,17 @@ double NearOutline::depth_at(const Vec2& p, double within) const noexcept {
   return is_inside(outline_, p) ? distance : -distance;
 }
 
+const NearOutline::Edge* NearOutline::only_edge_at(const Vec2& p, double distance,
+                                                   double within) const noexcept {
+  const Edge* only = nullptr;
+  for (std::size_t k = 0; count_ <= kMostNear && k < count_; ++k) {
+    const Edge& edge = near_[k];
+    if (edge.squared_distance > within * within) continue;
+    if (squared_distance_to_segment(p, edge.a, edge.b) >= distance * distance) continue;
+    if (only) return nullptr;
+    only = &edge;
+  }
+  return only;
+}
+
 }  // namespace prehensile

@@ -25,12 +25,17 @@ class NearOutline {
   /// nearest to it; elsewhere the absolute value may be too large.
   double depth_at(const Vec2& p, double within) const noexcept;
 
- private:
-  static constexpr std::size_t kMostNear = 32;  // where there are more, all are looked at
   struct Edge {
     Vec2 a, b;
-    double squared_distance;
+    double squared_distance;  ///< [m^2] from the centre
   };
+
+  /// The only edge closer than `distance` to p; nullptr where more are, or none. `within`
+  /// as above.
+  const Edge* only_edge_at(const Vec2& p, double distance, double within) const noexcept;
+
+ private:
+  static constexpr std::size_t kMostNear = 32;  // where there are more, all are looked at
 
   const std::vector<Vec2>& outline_;
   std::array<Edge, kMostNear> near_;

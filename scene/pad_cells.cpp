@@ -10,6 +10,10 @@ namespace {
 /// Beyond rounding: a circle about a cell that surely holds it.
 constexpr double kWider = 1.0 + 1e-9;
 
+/// Parts of a cell that are smaller than this share of it are none: where they lie is
+/// rounding.
+constexpr double kRounding = 1e-12;
+
 void find_measure(PadCell& cell) {
   if (cell.count == 2) {
     cell.measure = (cell.vertices[1] - cell.vertices[0]).norm();
@@ -177,6 +181,7 @@ std::vector<PadCell> pad_cells(const Pad& pad, const PadPressure& pressure,
   }
   for (PadCell& cell : cells) {
     cell.pressure = density(cell.centroid);
+    cell.middle = cell.centroid;
     cell.centroid *= wanted * load / torque;
     cell.within = kWider * (cell.centroid.norm() + cell.reach);
   }
@@ -210,6 +215,18 @@ PressedCell press(const PadCell& cell, const std::vector<Triangle>& face,
   const Vec2 shift = moment / pressed.measure - whole.centroid;
   pressed.centroid = cell.centroid + frame.turned_to_hand(shift);
   return pressed;
+}
+
+PressedCell press_at_edge(const PadCell& cell, const Vec2& a, const Vec2& b,
+                          const CellFrame& frame) noexcept {
+  PadCell part;
+  part.count = cell.count;
+  part.vertices = cell.vertices;
+  clip(part, frame.in_hand(a), frame.in_hand(b));
+  if (part.count < 2 || (cell.count > 2 && part.count < 3)) return {};
+  find_measure(part);
+  if (!(part.measure > kRounding * cell.measure)) return {};
+  return {part.measure, cell.centroid + part.centroid - cell.middle};
 }
 
 }  // namespace prehensile

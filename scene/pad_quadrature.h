@@ -53,6 +53,7 @@ struct PadCell {
   std::array<Vec2, kMaxVertices> vertices;
   double measure = 0.0;          ///< [m^2], or [m] for a segment
   Vec2 centroid = Vec2::Zero();  ///< [m]
+  Vec2 middle = Vec2::Zero();    ///< [m] the centroid before it is scaled
   double reach = 0.0;            ///< [m] farthest vertex from the centroid
   double within = 0.0;           ///< [m] of the finger axis: no vertex is farther
   double pressure = 1.0;         ///< at the centroid, up to a factor common to the pad
@@ -77,6 +78,7 @@ class CellFrame {
   Vec2 turned_to_hand(const Vec2& v_O) const {
     return {cos_ * v_O.x() + sin_ * v_O.y(), cos_ * v_O.y() - sin_ * v_O.x()};
   }
+  Vec2 in_hand(const Vec2& p_O) const { return turned_to_hand(p_O - p_OH_); }
 
  private:
   Vec2 p_OH_;
@@ -90,5 +92,9 @@ struct PressedCell {
 };
 PressedCell press(const PadCell& cell, const std::vector<Triangle>& face,
                   const CellFrame& frame) noexcept;
+
+/// The same where a -> b [m], in O, is the only edge of the face that reaches the cell.
+PressedCell press_at_edge(const PadCell& cell, const Vec2& a, const Vec2& b,
+                          const CellFrame& frame) noexcept;
 
 }  // namespace prehensile

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/outline.h"
+#include "scene/segment_distance.h"
 #include "tests/support/random.h"
 
 namespace prehensile {
@@ -45,6 +46,34 @@ TEST(NearOutline, KnowsTheDepthWhereItIsSmall) {
     }
   }
   EXPECT_GT(small, 1000);
+}
+
+TEST(NearOutline, KnowsTheOnlyEdgeThatIsClose) {
+  Random random(2);
+  int only = 0;
+  for (int i = 0; i < 300; ++i) {
+    const std::vector<Vec2> outline = random_star(3 + random.below(20), random);
+    const Vec2 centre = random.in_box(0.07, 0.07);
+    const double radius = random.log_in(1e-3, 0.05);
+    const NearOutline near(outline, centre, radius);
+    for (int k = 0; k < 50; ++k) {
+      const Vec2 p = centre + random.in_disc(0.5 * radius);
+      const double distance = random.in(0.0, 0.5 * radius);
+      std::vector<std::size_t> close;
+      for (std::size_t j = 0; j < outline.size(); ++j) {
+        const Vec2& b = outline[(j + 1) % outline.size()];
+        if (squared_distance_to_segment(p, outline[j], b) < distance * distance) {
+          close.push_back(j);
+        }
+      }
+      const NearOutline::Edge* const edge = near.only_edge_at(p, distance, radius);
+      ASSERT_EQ(edge != nullptr, close.size() == 1) << i;
+      if (!edge) continue;
+      ++only;
+      EXPECT_EQ(edge->a, outline[close[0]]);
+    }
+  }
+  EXPECT_GT(only, 500);
 }
 
 }  // namespace

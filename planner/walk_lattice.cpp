@@ -181,33 +181,35 @@ WalkLattice::OfContacts WalkLattice::slopes_of_step(std::size_t step, const Node
 /// do not decide. What the step back needs is found with it.
 void WalkLattice::look_between(int from, int to, std::size_t step, OfContacts& slopes,
                                Work& work) {
+  const auto is_any = [](const KappaRanges& ranges) { return ranges.count > 0; };
   const Vec2 middle = 0.5 * (place(from) + place(to));
-  if (PadsAtPlace::are_whole_at(model_, middle)) return;
-  const std::size_t back = steps_.size() - 1 - step;
+  if (std::ranges::none_of(slopes, is_any) || PadsAtPlace::are_whole_at(model_, middle)) {
+    return;
+  }
   if (const auto known = backwards_.find(from * steps_.size() + step);
       known != backwards_.end()) {
     slopes = std::move(known->second);
     backwards_.erase(known);
     return;
   }
-  OfContacts slopes_back = slopes_of_step(back, nodes_[to], nodes_[from]);
-  const auto is_any = [](const KappaRanges& ranges) { return ranges.count > 0; };
-  if (std::ranges::any_of(slopes, is_any) || std::ranges::any_of(slopes_back, is_any)) {
-    ++work.other;
-    const PadsAtPlace pads(model_, middle);
-    DirectedDrag drag(model_, pads, steps_[step].e, steepness_);
-    DirectedDrag drag_back = drag.opposite();
-    const auto keep = [&](DirectedDrag& along, KappaRanges& ranges, int contact) {
-      if (!is_any(ranges)) return;
-      ranges = pads.are_lost() ? KappaRanges()
-                               : common(ranges, along.kappas(weak_[contact], middle));
-    };
+  ++work.other;
+  const PadsAtPlace pads(model_, middle);
+  DirectedDrag drag(model_, pads, steps_[step].e, steepness_);
+  DirectedDrag drag_back = drag.opposite();
+  const auto keep_common = [&](DirectedDrag& along, OfContacts& of_contacts) {
     for (int k = 0; k < contacts_; ++k) {
-      keep(drag, slopes[k], k);
-      keep(drag_back, slopes_back[k], k);
+      KappaRanges& ranges = of_contacts[k];
+      if (!is_any(ranges)) continue;
+      ranges = pads.are_lost() ? KappaRanges()
+                               : common(ranges, along.kappas(weak_[k], middle));
     }
-  }
-  if (!nodes_[to].knows_steps) backwards_.emplace(to * steps_.size() + back, slopes_back);
+  };
+  keep_common(drag, slopes);
+  const std::size_t back = steps_.size() - 1 - step;
+  OfContacts slopes_back = slopes_of_step(back, nodes_[to], nodes_[from]);
+  if (nodes_[to].knows_steps || std::ranges::none_of(slopes_back, is_any)) return;
+  keep_common(drag_back, slopes_back);
+  backwards_.emplace(to * steps_.size() + back, std::move(slopes_back));
 }
 
 /// Between the start or a goal and any other place.

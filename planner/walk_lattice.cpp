@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <ranges>
 #include <utility>
 
 #include "planner/chain.h"
@@ -60,12 +59,12 @@ void WalkLattice::add_nodes() {
 }
 
 void WalkLattice::set_ends(const FlatState& start, const GoalPlaces& goals) {
-  for (const Narrowed& narrowed : std::views::reverse(narrowed_)) {
-    WalkEdge& edge = nodes_[narrowed.node].edges[narrowed.edge];
-    edge.lo = narrowed.lo;
-    edge.hi = narrowed.hi;
+  for (; !narrowed_.empty(); narrowed_.pop_back()) {
+    const Narrowed& last = narrowed_.back();
+    WalkEdge& edge = nodes_[last.node].edges[last.edge];
+    edge.lo = last.lo;
+    edge.hi = last.hi;
   }
-  narrowed_.clear();
   nodes_.resize(static_cast<std::size_t>(start_));
   for (Node& node : nodes_) {
     node.edges.resize(node.steps);

@@ -11,9 +11,10 @@
 
 #include "planner/goal.h"
 #include "planner/limits.h"
-#include "planner/walk_lattice.h"
 
 namespace prehensile {
+
+class WalkLattices;
 
 /// J from which a plan is dear: a cheaper one is looked for without being asked for.
 /// Below it that seldom saves much, and takes tenths of a second.

@@ -27,9 +27,6 @@ constexpr double kHopeless = 0.25;
 constexpr int kAngles = 8;
 constexpr int kAnglesOfClippedDiscs = 3;
 
-/// Keeps the friction of a point at rest from being no number: it adds nothing.
-constexpr float kAtRest = 1e-30F;
-
 std::vector<DirectedDrag::Slope> slopes_up_to(double most_kappa, int count) {
   std::vector<DirectedDrag::Slope> slopes;
   slopes.reserve(static_cast<std::size_t>(count));
@@ -70,28 +67,8 @@ PadsAtPlace::PadsAtPlace(const Model& model, const Vec2& p_OF)
     const PlanarGrasp grasp =
         grasp_at(model, pose_from_finger(p_OF, theta), Vec2::Zero());
     if (grasp.count == 0) continue;
-    Points& points = at_angles_.emplace_back();
-    for (Column* column : {&points.x, &points.y, &points.share}) {
-      column->resize(grasp.count);
-    }
-    for (int j = 0; j < grasp.count; ++j) {
-      const Vec2 r = rotated(-theta, Vec2(grasp.x[j], grasp.y[j])) / model.c;
-      points.x[j] = static_cast<float>(r.x());
-      points.y[j] = static_cast<float>(r.y());
-      points.share[j] = static_cast<float>(grasp.bound[j] / model.F);
-    }
+    at_angles_.emplace_back().add(grasp, theta, model.c, model.F);
   }
-}
-
-PadsAtPlace::Drag PadsAtPlace::drag(int angle, const Vec2& velocity,
-                                    double turning) const noexcept {
-  const Points& points = at_angles_[static_cast<std::size_t>(angle)];
-  const auto omega = static_cast<float>(turning);
-  const Column vx = static_cast<float>(velocity.x()) - omega * points.y;
-  const Column vy = static_cast<float>(velocity.y()) + omega * points.x;
-  const Column rate = points.share / (vx.square() + vy.square() + kAtRest).sqrt();
-  return {{(rate * vx).sum(), (rate * vy).sum()},
-          (rate * (points.x * vy - points.y * vx)).sum()};
 }
 
 DirectedDrag::DirectedDrag(const Model& model, const PadsAtPlace& pads, const Vec2& e,

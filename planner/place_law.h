@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "planner/pad_columns.h"
 #include "planner/steering.h"
 
 namespace prehensile {
@@ -38,22 +39,15 @@ class PadsAtPlace {
 
   int angles() const { return static_cast<int>(at_angles_.size()); }
 
-  /// Friction that overcomes them at one of the angles, over F and F c.
-  struct Drag {
-    Vec2 force = Vec2::Zero();
-    double moment = 0.0;
-  };
-  /// `turning`: c times the rate of turn of the object, in the scale of its velocity (in
-  /// O). In single precision: many are looked at, each for a few digits. No heap.
-  Drag drag(int angle, const Vec2& velocity, double turning) const noexcept;
+  /// Friction that overcomes them at one of the angles, over F and F c. `turning`: c
+  /// times the rate of turn of the object, in the scale of its velocity (in O). In single
+  /// precision: many are looked at, each for a few digits. No heap.
+  PadDrag drag(int angle, const Vec2& velocity, double turning) const noexcept {
+    return at_angles_[static_cast<std::size_t>(angle)].drag(velocity, turning);
+  }
 
  private:
-  using Column = Eigen::Array<float, Eigen::Dynamic, 1, 0, PlanarGrasp::kCapacity, 1>;
-  struct Points {
-    Column x, y;   // about the finger axis, in O, over c
-    Column share;  // of F
-  };
-  std::vector<Points> at_angles_;
+  std::vector<PadColumns<float, PlanarGrasp::kCapacity>> at_angles_;
   bool are_whole_;
 };
 

@@ -14,10 +14,6 @@ namespace {
 /// Places along a push are less than this apart, in torque radii.
 constexpr double kApart = 0.125;
 
-/// [m^2/s^2] Keeps the friction of a point at rest from being no number: it adds nothing.
-template <class Scalar>
-constexpr Scalar kAtRest = std::numeric_limits<Scalar>::min();
-
 }  // namespace
 
 bool has_clipped_discs(const Model& model) {
@@ -28,42 +24,16 @@ bool has_clipped_discs(const Model& model) {
 template <class Scalar>
 SpreadPadsOf<Scalar>::SpreadPadsOf(const Model& model, const Vec2& p_OF,
                                    int angles) noexcept {
-  for (Column* column : {&x_, &y_, &share_}) column->resize(column->MaxSizeAtCompileTime);
-  Eigen::Index count = 0;
   for (int k = 0; k < angles; ++k) {
     const double theta = 2.0 * std::numbers::pi * k / angles;
     const PlanarGrasp grasp =
         grasp_at(model, pose_from_finger(p_OF, theta), Vec2::Zero());
     if (grasp.count == 0) {
-      count = 0;
-      break;
+      points_ = {};
+      return;
     }
-    for (int j = 0; j < grasp.count; ++j) {
-      const Vec2 r = rotated(-theta, Vec2(grasp.x[j], grasp.y[j]));
-      x_[count] = static_cast<Scalar>(r.x());
-      y_[count] = static_cast<Scalar>(r.y());
-      share_[count] = static_cast<Scalar>(grasp.bound[j] / (angles * model.F));
-      ++count;
-    }
+    points_.add(grasp, theta, 1.0, angles * model.F);
   }
-  for (Column* column : {&x_, &y_, &share_}) column->conservativeResize(count);
-}
-
-template <class Scalar>
-PadDrag SpreadPadsOf<Scalar>::drag(const Vec2& velocity, double omega) const noexcept {
-  const auto rate_of_turn = static_cast<Scalar>(omega);
-  const Column vx = static_cast<Scalar>(velocity.x()) - rate_of_turn * y_;
-  const Column vy = static_cast<Scalar>(velocity.y()) + rate_of_turn * x_;
-  const Column rate = share_ / (vx.square() + vy.square() + kAtRest<Scalar>).sqrt();
-  return {{(rate * vx).sum(), (rate * vy).sum()}, (rate * (x_ * vy - y_ * vx)).sum()};
-}
-
-template <class Scalar>
-double SpreadPadsOf<Scalar>::power(const Vec2& velocity, double omega) const noexcept {
-  const auto rate_of_turn = static_cast<Scalar>(omega);
-  const auto vx = static_cast<Scalar>(velocity.x()) - rate_of_turn * y_;
-  const auto vy = static_cast<Scalar>(velocity.y()) + rate_of_turn * x_;
-  return (share_ * (vx.square() + vy.square()).sqrt()).sum();
 }
 
 template class SpreadPadsOf<double>;

@@ -7,7 +7,7 @@
 #pragma once
 
 #include "mechanics/model.h"
-#include "mechanics/pad_drag.h"
+#include "planner/pad_columns.h"
 
 namespace prehensile {
 
@@ -26,21 +26,22 @@ class SpreadPadsOf {
   SpreadPadsOf(const Model& model, const Vec2& p_OF, int angles = kMostAngles) noexcept;
 
   /// They do not touch the object.
-  bool are_lost() const { return share_.size() == 0; }
+  bool are_lost() const { return points_.is_empty(); }
 
   /// Force over F, and moment [m] over F about the finger axis, that overcome them in a
   /// motion of the object in the hand, in O, of any scale.
-  PadDrag drag(const Vec2& velocity, double omega) const noexcept;
+  PadDrag drag(const Vec2& velocity, double omega) const noexcept {
+    return points_.drag(velocity, omega);
+  }
 
   /// Power over F that they take in a motion of the object in the hand: [m/s] for a twist
   /// in m/s and rad/s.
-  double power(const Vec2& velocity, double omega) const noexcept;
+  double power(const Vec2& velocity, double omega) const noexcept {
+    return points_.power(velocity, omega);
+  }
 
  private:
-  using Column =
-      Eigen::Array<Scalar, Eigen::Dynamic, 1, 0, kMostAngles * PlanarGrasp::kCapacity, 1>;
-  Column x_, y_;  // of points about the finger axis, in O [m]
-  Column share_;  // of F
+  PadColumns<Scalar, kMostAngles * PlanarGrasp::kCapacity> points_;
 };
 
 using SpreadPads = SpreadPadsOf<double>;

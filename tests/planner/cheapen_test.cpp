@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/shorten.h"
+#include "planner/walk_lattice.h"
 #include "problems/random_fixtures.h"
 #include "problems/random_regrasps.h"
 #include "tests/planner/planner_cases.h"

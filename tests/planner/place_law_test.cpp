@@ -140,7 +140,7 @@ TEST(PlaceLaw, DragIsThatOfTheRealPads) {
         const PadDrag real =
             drag_of_points(grasp.count, grasp.x, grasp.y, grasp.bound, 1.0,
                            rotated(theta, velocity), turning / model.c);
-        const PadsAtPlace::Drag drag = pads.drag(k, velocity, turning);
+        const PadDrag drag = pads.drag(k, velocity, turning);
         EXPECT_LT((rotated(theta, drag.force) - real.force / model.F).norm(), 1e-3);
         EXPECT_NEAR(drag.moment, real.moment / (model.F * model.c), 1e-3);
       }

@@ -4,32 +4,16 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/push_search.h"
-#include "problems/random_fixtures.h"
 #include "tests/planner/planner_cases.h"
+#include "tests/planner/random_search.h"
 
 namespace prehensile {
 namespace {
 
 constexpr int kNodesPerSide = 12;
 
-struct Case {
-  explicit Case(std::uint64_t index)
-      : scene(random_fixture({.object = FixtureObject::kConvex,
-                              .count = {1.0, 3.0},
-                              .goals = GoalsFrom::kRandom},
-                             3, index)
-                  ->scene),
-        model(prepare(scene)),
-        search(prepare_search(model, Margin::none())),
-        start(flat_state(scene.start)),
-        goals(goal_places(model, *scene.goal, start)) {}
-
-  Scene scene;
-  Model model;
-  SearchModel search;
-  FlatState start;
-  GoalPlaces goals;
+struct Case : testing::RandomSearch {
+  using RandomSearch::RandomSearch;
   Work work{.budget = testing::kNoBudget};
 };
 

@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/goal.h"
-#include "problems/random_fixtures.h"
+#include "tests/planner/random_search.h"
 
 namespace prehensile {
 namespace {
@@ -14,17 +13,9 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A lattice over a random problem, and what its walks cost.
-struct Case {
+struct Case : testing::RandomSearch {
   explicit Case(std::uint64_t index, std::int64_t budget = 5'000'000)
-      : scene(random_fixture({.object = FixtureObject::kConvex,
-                              .count = {1.0, 3.0},
-                              .goals = GoalsFrom::kRandom},
-                             3, index)
-                  ->scene),
-        model(prepare(scene)),
-        search(prepare_search(model, Margin::none())),
-        start(flat_state(scene.start)),
-        goals(goal_places(model, *scene.goal, start)),
+      : RandomSearch(index),
         work{.budget = budget},
         lattice(search, start, goals, 16, Steepness::kUsual),
         contacts(static_cast<int>(search.contacts.size())),
@@ -41,11 +32,6 @@ struct Case {
     return least;
   }
 
-  Scene scene;
-  Model model;
-  SearchModel search;
-  FlatState start;
-  GoalPlaces goals;
   PlanOptions options;
   Work work;
   WalkLattice lattice;

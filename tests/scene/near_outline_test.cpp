@@ -21,15 +21,25 @@ std::vector<Vec2> random_star(int vertices, Random& random) {
   return outline;
 }
 
+struct Case {
+  explicit Case(int most_vertices, Random& random)
+      : outline(random_star(3 + random.below(most_vertices), random)),
+        centre(random.in_box(0.07, 0.07)),
+        radius(random.log_in(1e-3, 0.05)),
+        near(outline, centre, radius) {}
+  std::vector<Vec2> outline;
+  Vec2 centre;
+  double radius;
+  NearOutline near;
+};
+
 /// Depths that are less than what may be missed are those of the whole outline.
 TEST(NearOutline, KnowsTheDepthWhereItIsSmall) {
   Random random(1);
   int small = 0;
   for (int i = 0; i < 300; ++i) {
-    const std::vector<Vec2> outline = random_star(3 + random.below(60), random);
-    const Vec2 centre = random.in_box(0.07, 0.07);
-    const double radius = random.log_in(1e-3, 0.05);
-    const NearOutline near(outline, centre, radius);
+    const Case made(60, random);
+    const auto& [outline, centre, radius, near] = made;
     for (int k = 0; k < 50; ++k) {
       const double within = random.in(0.0, radius);
       const Vec2 p = centre + random.in_disc(within);
@@ -52,10 +62,8 @@ TEST(NearOutline, KnowsTheOnlyEdgeThatIsClose) {
   Random random(2);
   int only = 0;
   for (int i = 0; i < 300; ++i) {
-    const std::vector<Vec2> outline = random_star(3 + random.below(20), random);
-    const Vec2 centre = random.in_box(0.07, 0.07);
-    const double radius = random.log_in(1e-3, 0.05);
-    const NearOutline near(outline, centre, radius);
+    const Case made(20, random);
+    const auto& [outline, centre, radius, near] = made;
     for (int k = 0; k < 50; ++k) {
       const Vec2 p = centre + random.in_disc(0.5 * radius);
       const double distance = random.in(0.0, 0.5 * radius);

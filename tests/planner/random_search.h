@@ -1,0 +1,31 @@
+/// Random problems as searches see them, which tests share.
+#pragma once
+
+#include "planner/goal.h"
+#include "problems/random_fixtures.h"
+
+namespace prehensile::testing {
+
+/// Between walls, with a goal anywhere.
+struct RandomSearch {
+  explicit RandomSearch(std::uint64_t index)
+      : scene(random_fixture({.object = FixtureObject::kConvex,
+                              .count = {1.0, 3.0},
+                              .goals = GoalsFrom::kRandom},
+                             3, index)
+                  ->scene),
+        model(prepare(scene)),
+        search(prepare_search(model, Margin::none())),
+        start(flat_state(scene.start)),
+        goals(goal_places(model, *scene.goal, start)) {}
+  RandomSearch(const RandomSearch&) = delete;
+  RandomSearch& operator=(const RandomSearch&) = delete;
+
+  Scene scene;
+  Model model;
+  SearchModel search;
+  FlatState start;
+  GoalPlaces goals;
+};
+
+}  // namespace prehensile::testing

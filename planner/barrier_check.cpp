@@ -29,17 +29,18 @@ constexpr int kMostGoalCuts = 5;
 
 constexpr double kRounding = 1e-9;  // [m] of places
 
-/// Of the friction's power: what a fall has to leave, for a disc of points resists a
-/// little more or less as it turns; a clipped one more so.
+/// Of the friction's power: what a fall has to leave. Points that stand for a disc resist
+/// up to 0.014 more at one angle of the object than at another, and up to 0.005 more than
+/// when spread over all angles.
 constexpr double kUneven = 0.02;
-constexpr double kUnevenWhereClipped = 0.05;
+constexpr double kUnevenIfSpread = 0.01;
 
 /// Angles of the object at which pads that are not round are looked at.
 constexpr int kAnglesOfPads = 48;
 
 /// Pieces where the face clips the discs, in their torque radii: from the longest that
 /// are looked at to the shortest that are cut.
-constexpr double kLongestClipped = 0.15;
+constexpr double kLongestClipped = 0.07;
 constexpr double kShortestClipped = 0.02;
 
 bool refuse(std::string* why, const char* text) {
@@ -216,7 +217,7 @@ class BorderLaw {
     bool all = true;
     for (std::size_t k = 0; k < model_.contacts.size() && all; ++k) {
       all = none_crosses(whole_, static_cast<int>(k), piece, 0.0, kAcross, kMostTurns) ||
-            falls_all_along(model_, model_.contacts[k], piece);
+            falls(model_.contacts[k], piece);
     }
     return all;
   }
@@ -230,13 +231,18 @@ class BorderLaw {
     return all;
   }
 
+  bool falls(const PushContact& contact, const Piece& piece) const {
+    if (!clips_) return falls_all_along(model_, contact, piece);
+    return falls(ClippedLaw(model_, {piece.a, piece.b}, piece.out), contact, piece);
+  }
+
   bool falls(const ClippedLaw& law, const PushContact& contact,
              const Piece& piece) const {
     const PlanarGrasp grasp =
         grasp_at(model_, pose_from_finger(piece.middle(), 0.0), contact.g_O);
     PlanarTwist fall = PlanarTwist::Zero();
     return gravity_slack_by_pad_law(model_, grasp, &fall) < 0.0 &&
-           law.falls(contact, fall, kUnevenWhereClipped);
+           law.falls(contact, fall, kUnevenIfSpread);
   }
 
   const Model& model_;

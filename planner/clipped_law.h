@@ -22,7 +22,7 @@ bool has_clipped_law(const Model& model);
 
 class ClippedLaw {
  public:
-  /// Of motions across `line`, which has to be short against the discs, towards `out`.
+  /// Of motions across `line`, of up to 0.07 torque radii, towards `out`.
   /// `model` has clipped discs (has_clipped_discs) and must outlive the law.
   ClippedLaw(const Model& model, const PlaceSpan& line, const Vec2& out);
 
@@ -66,6 +66,11 @@ class StickDemands {
   std::array<Inequality, 5> inequalities_;
   int count_ = 0;
 };
+
+/// So much more than at both ends of a line an inequality of a sticking instant may leave
+/// at a place between them, over F, with the pads at the ends.
+double widening_between(const SpreadPads& at_a, const SpreadPads& at_b,
+                        const PlaceSpan& line, double c);
 
 /// Rate at which the pusher advances at an end of its face, for a motion (velocity of the
 /// object at the finger axis, c times its rate of turn).

@@ -40,18 +40,27 @@ constexpr int kTabulated = 361;
 /// Over which the points of clipped discs are spread: fewer than the check looks at.
 constexpr int kAnglesOfFinder = 5;
 
-/// Gravity counts as held where less than this of the friction is missing.
-constexpr double kNearlyHeld = 0.12;
+/// Of the friction: what the check of barriers wants to be missing where the grasp alone
+/// does not hold the object, and a little.
+constexpr double kSurelyMissing = 0.015;
+
+/// Where the ellipsoid of whole discs is this far from falling or holding, it decides.
+constexpr double kFarFromFalling = 0.4;
 
 /// What contacts ask at one place, for one motion after another.
 class Asked {
  public:
-  Asked(const Model& model, const Vec2& p_OF, const std::vector<int>& contacts)
-      : model_(model), p_OF_(p_OF) {
-    for (const int k : contacts) {
-      asked_.push_back({&model.contacts[k], {model, model.contacts[k], p_OF}});
+  Asked(const Model& model, const Vec2& p_OF) : model_(model), p_OF_(p_OF) {
+    const bool whole = model.region.is_whole(pose_from_finger(p_OF, 0.0));
+    for (const PushContact& contact : model.contacts) {
+      const bool again = !asked_.empty() && contact.g_O == asked_.back().contact->g_O;
+      const double held = again ? asked_.back().held : held_at(contact.g_O, whole);
+      if (held < kHopeless) continue;
+      asked_.push_back({&contact, {model, contact, p_OF}, held});
     }
   }
+
+  bool is_nothing() const { return asked_.empty(); }
 
   /// `friction()` is asked for where some contact can advance.
   template <class Friction>
@@ -65,7 +74,7 @@ class Asked {
       };
       if (std::max(advance(contact.a), advance(contact.b)) < 0.0) continue;
       if (!known) known = friction();
-      most = std::max(most, asked.demands.slack(*known));
+      most = std::max(most, std::min(asked.held, asked.demands.slack(*known)));
     }
     return most;
   }
@@ -74,7 +83,17 @@ class Asked {
   struct Of {
     const PushContact* contact;
     StickDemands demands;
+    double held;
   };
+
+  /// What the friction has more than gravity asks of the grasp alone.
+  double held_at(const Vec2& g_O, bool whole) const {
+    const double by_ellipsoid = holding_slack(model_, p_OF_, g_O, Margin::none());
+    if (whole && std::abs(by_ellipsoid) > kFarFromFalling) return by_ellipsoid;
+    const PlanarGrasp grasp = grasp_at(model_, pose_from_finger(p_OF_, 0.0), g_O);
+    if (grasp.count == 0) return -kInfinity;
+    return gravity_slack_by_pad_law(model_, grasp) + kSurelyMissing;
+  }
   const Model& model_;
   const Vec2& p_OF_;
   std::vector<Of> asked_;
@@ -164,9 +183,9 @@ const PlaceSlacks::Profile& PlaceSlacks::at_node(int node) {
 PlaceSlacks::Profile PlaceSlacks::looked_at(const Vec2& p_OF) const {
   Profile slacks;
   slacks.fill(-1.0);
-  const std::vector<int> contacts = held_contacts(p_OF);
-  if (contacts.empty()) return slacks;
-  const Asked asked(model_, p_OF, contacts);
+  if (depth_inside(model_.pad_face, p_OF) < 0.0) return slacks;
+  const Asked asked(model_, p_OF);
+  if (asked.is_nothing()) return slacks;
   if (model_.region.is_whole(pose_from_finger(p_OF, 0.0))) {
     for (int k = 0; k < kDirections; ++k) {
       const Vec2 e = -towards(FreeDirections::direction(k));
@@ -202,23 +221,6 @@ Eigen::Vector3d PlaceSlacks::friction_of_whole(double angle, const Vec2& e) cons
   const double along = std::lerp(whole_[i].along, whole_[i + 1].along, share);
   return {along * e.x(), along * e.y(),
           std::lerp(whole_[i].moment, whole_[i + 1].moment, share)};
-}
-
-std::vector<int> PlaceSlacks::held_contacts(const Vec2& p_OF) const {
-  std::vector<int> held;
-  if (depth_inside(model_.pad_face, p_OF) < 0.0) return held;
-  const PlanarPose X_HO = pose_from_finger(p_OF, 0.0);
-  const bool whole = model_.region.is_whole(X_HO);
-  const auto slack = [&](const Vec2& g_O) {
-    if (whole) return holding_slack(model_, p_OF, g_O, Margin::none());
-    const PlanarGrasp grasp = grasp_at(model_, X_HO, g_O);
-    return grasp.count > 0 ? gravity_slack_by_pad_law(model_, grasp) : -kInfinity;
-  };
-  for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
-    const bool is_held = slack(model_.contacts[k].g_O) >= -kNearlyHeld;
-    if (is_held) held.push_back(static_cast<int>(k));
-  }
-  return held;
 }
 
 }  // namespace prehensile

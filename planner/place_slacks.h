@@ -17,7 +17,8 @@ class PlaceSlacks {
  public:
   /// By direction of the finger axis in O (FreeDirections::direction): the most that the
   /// inequalities of a sticking instant leave, over F, with some contact at some rate of
-  /// turn; -1 where the pads are lost or no contact's pushes are held, or nearly so.
+  /// turn, but no more than, and a little, what the friction has left over for the
+  /// contact's gravity; -1 where the pads are lost or fall under all contacts.
   using Profile = std::array<double, FreeDirections::kLookedAt>;
 
   /// `model` has clipped discs (has_clipped_discs) and must outlive this.
@@ -29,8 +30,6 @@ class PlaceSlacks {
  private:
   const Profile& at_node(int node);
   Profile looked_at(const Vec2& p_OF) const;
-  /// Contacts under whose gravity the grasp holds, or nearly so.
-  std::vector<int> held_contacts(const Vec2& p_OF) const;
   /// At this angle of (1, kappa), for motions of the object along e: force and moment /
   /// c.
   Eigen::Vector3d friction_of_whole(double angle, const Vec2& e) const;

@@ -38,7 +38,7 @@ struct Line {
 Line random_line(const Model& model, Random& random) {
   const Vec2 a = clipped_place(model, random);
   const Vec2 along = random.direction();
-  const double length = random.log_in(0.005, 0.15) * model.c;
+  const double length = random.log_in(0.005, 0.07) * model.c;
   return {{a, a + length * along}, random.chance(0.5) ? perp(along) : Vec2(-perp(along))};
 }
 
@@ -123,6 +123,48 @@ TEST(ClippedLaw, FallsWhereGravityIsStrongerThanThePads) {
   EXPECT_TRUE(falls(0.9 * grip_of_weight));
   EXPECT_FALSE(falls(1.0 * grip_of_weight));
   EXPECT_FALSE(falls(5.0 * grip_of_weight));
+}
+
+Eigen::Vector3d friction_of(const SpreadPads& pads, const Eigen::Vector3d& motion,
+                            double c) {
+  const PadDrag drag = pads.drag(motion.head<2>(), motion[2] / c);
+  return {drag.force.x(), drag.force.y(), drag.moment / c};
+}
+
+/// No inequality of any motion leaves more between the ends than at one of them and the
+/// widening.
+TEST(ClippedLaw, WideningCoversPlacesBetween) {
+  Random random(14);
+  int lines = 0;
+  double most = 0.0;  // of the widening that is used
+  while (lines < 400) {
+    const Model model = prepare(random_clipped_scene(random));
+    const Line line = random_line(model, random);
+    const Vec2 between = line.at(random.in(0.0, 1.0));
+    const SpreadPads at_a(model, line.places.a), at_b(model, line.places.b),
+        at(model, between);
+    if (at_a.are_lost() || at_b.are_lost() || at.are_lost()) continue;
+    ++lines;
+    const double widening = widening_between(at_a, at_b, line.places, model.c);
+    const PushContact& contact = model.contacts[lines % model.contacts.size()];
+    const StickDemands of_a(model, contact, line.places.a);
+    const StickDemands of_b(model, contact, line.places.b);
+    const StickDemands demands(model, contact, between);
+    for (int k = 0; k < 100; ++k) {
+      const Vec2 e = random.direction();
+      const Eigen::Vector3d motion(e.x(), e.y(), random_kappa(random));
+      const auto left = [&](const StickDemands& of, const SpreadPads& pads, int i) {
+        return of[i].eta.dot(friction_of(pads, motion, model.c)) + of[i].constant;
+      };
+      for (int i = 0; i < demands.count(); ++i) {
+        const double at_ends = std::max(left(of_a, at_a, i), left(of_b, at_b, i));
+        const double beyond = left(demands, at, i) - at_ends;
+        EXPECT_LE(beyond, widening + 1e-6) << "line " << lines << ", inequality " << i;
+        if (widening > 1e-4) most = std::max(most, beyond / widening);
+      }
+    }
+  }
+  EXPECT_GT(most, 0.1);
 }
 
 /// The inequalities are those of the slack, whose sign they share.

@@ -32,7 +32,7 @@ std::vector<DirectedDrag::Slope> slopes_up_to(double most_kappa, int count) {
   slopes.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     const double angle = std::atan(most_kappa) * (2.0 * i / (count - 1) - 1.0);
-    slopes.push_back({angle, std::cos(angle), std::sin(angle)});
+    slopes.push_back({angle, std::cos(angle), std::sin(angle), std::tan(angle)});
   }
   return slopes;
 }
@@ -218,10 +218,10 @@ KappaRanges DirectedDrag::kappas(const StickContact& contact, const Vec2& p_OF) 
     const bool sticks = !is_hopeless && instants.sticks(i);
     if (sticks && !stuck) {
       if (set.count == 2) break;
-      const double lo = i > 0 ? instants.border(i) : std::tan(slopes_[0].angle);
-      set.intervals[set.count++] = {lo, std::tan(slopes_[i].angle)};
+      const double lo = i > 0 ? instants.border(i) : slopes_[0].kappa;
+      set.intervals[set.count++] = {lo, slopes_[i].kappa};
     } else if (sticks) {
-      set.intervals[set.count - 1].hi = std::tan(slopes_[i].angle);
+      set.intervals[set.count - 1].hi = slopes_[i].kappa;
     } else if (stuck) {
       set.intervals[set.count - 1].hi = instants.border(i);
     }

@@ -77,7 +77,7 @@ class DirectedDrag {
 
   /// One of the kappas that are looked at, as the angle of (1, kappa) [rad].
   struct Slope {
-    double angle, cosine, sine;
+    double angle, cosine, sine, kappa;
   };
 
  private:

@@ -54,10 +54,41 @@ struct Label {
   int parent = -1, edge = -1;  ///< the label before, and the edge of its node
 };
 
-/// The cheapest label for a bucket of turns at a node.
+/// At a node, the cheapest label for each bucket of turns. In columns: most labels are
+/// offered in vain, which is seen several buckets at once.
 struct Kept {
-  float cost = kFar;
-  int label = -1;
+  std::vector<float> costs;
+  std::vector<int> labels;
+
+  void clear() {
+    std::ranges::fill(costs, kFar);
+    std::ranges::fill(labels, -1);
+  }
+
+  void make_room(int buckets) {
+    costs.resize(static_cast<std::size_t>(buckets), kFar);
+    labels.resize(static_cast<std::size_t>(buckets), -1);
+  }
+
+  /// Whether a label is the cheapest for some bucket from `low` to `high`.
+  bool has(int label, int low, int high) const {
+    int found = 0;
+    for (int b = low; b <= high; ++b) found |= labels[b] == label ? 1 : 0;
+    return found != 0;
+  }
+
+  /// Puts it into those where it is cheaper; false if there are none.
+  bool put(int label, float cost, int low, int high) {
+    int dearer = 0;
+    for (int b = low; b <= high; ++b) dearer |= costs[b] > cost ? 1 : 0;
+    if (dearer == 0) return false;
+    for (int b = low; b <= high; ++b) {
+      const int replaced = costs[b] > cost ? -1 : 0;  // all bits or none
+      labels[b] ^= (labels[b] ^ label) & replaced;
+    }
+    for (int b = low; b <= high; ++b) costs[b] = std::min(costs[b], cost);
+    return true;
+  }
 };
 
 struct QueueEntry {
@@ -112,7 +143,7 @@ class WalkSearch {
   std::optional<WalkEnd> cheapest_walk() {
     labels_.clear();
     queue_ = {};
-    for (std::vector<Kept>& kept : kept_) std::ranges::fill(kept, Kept());
+    for (Kept& kept : kept_) kept.clear();
     offer({.node = lattice_.start()});
     while (!queue_.empty() && !limits_.reached() && labels_.size() < kMostLabels) {
       const int next = queue_.top().label;
@@ -166,9 +197,7 @@ class WalkSearch {
   bool is_alive(int index) const {
     const Label& label = labels_[index];
     const auto [low, high] = buckets_of(label);
-    const std::vector<Kept>& kept = kept_[label.node];
-    return std::any_of(kept.begin() + low, kept.begin() + high + 1,
-                       [&](const Kept& one) { return one.label == index; });
+    return kept_[label.node].has(index, low, high);
   }
 
   /// Keeps the label if it is the cheapest for some bucket of its angles.
@@ -176,20 +205,13 @@ class WalkSearch {
     const double estimate = label.cost + rest_.after(label.node, label.contact);
     if (estimate >= to_beat_) return;
     const auto [low, high] = buckets_of(label);
-    std::vector<Kept>& kept = kept_[label.node];
-    kept.resize(static_cast<std::size_t>(buckets_));
     buckets_compared_ += 1 + high - low;
     work_.other += buckets_compared_ / kBucketsPerTest;
     buckets_compared_ %= kBucketsPerTest;
-    const auto cost = static_cast<float>(label.cost);
+    Kept& kept = kept_[label.node];
+    kept.make_room(buckets_);
     const int index = static_cast<int>(labels_.size());
-    bool is_kept = false;
-    for (int b = low; b <= high; ++b) {
-      if (kept[b].cost <= cost) continue;
-      kept[b] = {cost, index};
-      is_kept = true;
-    }
-    if (!is_kept) return;
+    if (!kept.put(index, static_cast<float>(label.cost), low, high)) return;
     queue_.push({estimate, index});
     labels_.push_back(label);
   }
@@ -250,8 +272,8 @@ class WalkSearch {
   const bool is_number_;  // the goal's angle: whole turns count
   TurnWindow window_;     // of c dtheta [m]
   WalkRest rest_;
-  int buckets_compared_ = 0;             // and not yet counted as work
-  std::vector<std::vector<Kept>> kept_;  // by node that is reached, and bucket
+  int buckets_compared_ = 0;  // and not yet counted as work
+  std::vector<Kept> kept_;    // by node; room where one is reached
   std::vector<Label> labels_;
   std::priority_queue<QueueEntry> queue_;
 };

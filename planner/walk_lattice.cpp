@@ -16,6 +16,10 @@ namespace {
 /// Rows and columns that a push goes, at most.
 constexpr int kStride = 3;
 
+/// Pads half way between nodes that are kept, at most: some 3 KB each. Five or six steps
+/// that differ meet half way at each of these places.
+constexpr std::size_t kMostBetween = 4000;
+
 /// Of this many spacings pushes from the start and to the goals are, at most.
 constexpr double kReach = 1.5 * kStride;
 
@@ -192,7 +196,7 @@ void WalkLattice::look_between(int from, int to, std::size_t step, OfContacts& s
     return;
   }
   ++work.other;
-  const PadsAtPlace pads(model_, middle);
+  const PadsAtPlace& pads = pads_between(from, steps_[step], middle);
   DirectedDrag drag(model_, pads, steps_[step].e, steepness_);
   DirectedDrag drag_back = drag.opposite();
   const auto keep_common = [&](DirectedDrag& along, OfContacts& of_contacts) {
@@ -209,6 +213,18 @@ void WalkLattice::look_between(int from, int to, std::size_t step, OfContacts& s
   if (nodes_[to].knows_steps || std::ranges::none_of(slopes_back, is_any)) return;
   keep_common(drag_back, slopes_back);
   backwards_.emplace(to * steps_.size() + back, std::move(slopes_back));
+}
+
+const PadsAtPlace& WalkLattice::pads_between(int from, const Step& step,
+                                             const Vec2& middle) {
+  const int column = 2 * grid_.column(on_grid_[from]) + step.i;
+  const int row = 2 * grid_.row(on_grid_[from]) + step.j;
+  const int place = column * 2 * grid_.ny + row;
+  if (const auto known = between_.find(place); known != between_.end()) {
+    return known->second;
+  }
+  if (between_.size() >= kMostBetween) between_.clear();
+  return between_.try_emplace(place, model_, middle).first->second;
 }
 
 /// Between the start or a goal and any other place.

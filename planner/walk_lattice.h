@@ -72,6 +72,7 @@ class WalkLattice {
   using OfContacts = std::vector<KappaRanges>;
   OfContacts slopes_of_step(std::size_t step, const Node& from, const Node& to) const;
   void look_between(int from, int to, std::size_t step, OfContacts& slopes, Work& work);
+  const PadsAtPlace& pads_between(int from, const Step& step, const Vec2& middle);
   void add_edges(const KappaRanges& slopes, int contact, int to, double length,
                  std::vector<WalkEdge>& edges) const;
   void add_steps_from(int index, Work& work, std::vector<WalkEdge>& edges);
@@ -91,6 +92,7 @@ class WalkLattice {
   std::optional<PadsAtPlace> whole_pads_;
   std::vector<DirectedDrag> whole_drags_;                  // by step
   std::unordered_map<std::size_t, OfContacts> backwards_;  // of steps not yet asked for
+  std::unordered_map<int, PadsAtPlace> between_;           // by half rows and columns
   std::vector<Narrowed> narrowed_;
 };
 

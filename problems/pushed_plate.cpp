@@ -21,12 +21,10 @@ constexpr int kFinePoints = 4000;  ///< of the grid that measures a torque radiu
 /// A square cell of a grid.
 PadCell square_cell(const Vec2& centre, double side) {
   PadCell cell;
-  cell.count = 4;
   const double h = 0.5 * side;
-  cell.vertices[0] = centre + Vec2(-h, -h);
-  cell.vertices[1] = centre + Vec2(h, -h);
-  cell.vertices[2] = centre + Vec2(h, h);
-  cell.vertices[3] = centre + Vec2(-h, h);
+  for (const Vec2& corner : {Vec2(-h, -h), Vec2(h, -h), Vec2(h, h), Vec2(-h, h)}) {
+    cell.shape.add(centre + corner);
+  }
   cell.measure = side * side;
   cell.centroid = centre;
   cell.reach = h * std::sqrt(2.0);

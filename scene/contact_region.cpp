@@ -128,13 +128,13 @@ ContactPoints ContactRegion::clipped_by_face(const PlanarPose& X_HO) const noexc
     total += cell.measure * cell.pressure;
     const Vec2 middle = frame.in_object(cell.centroid);
     PressedCell part;
-    if (const auto* edge = near.only_edge_at(middle, cell.reach, cell.within)) {
-      part = press_at_edge(cell, edge->a, edge->b, frame);
-    } else if (const double depth = near.depth_at(middle, cell.within);
-               depth >= cell.reach) {
-      part = {cell.measure, cell.centroid};
-    } else if (depth > -cell.reach) {
+    const NearOutline::Close close = near.close_to(middle, cell.reach, cell.within);
+    if (close.only) {
+      part = press_at_edge(cell, close.only->a, close.only->b, frame);
+    } else if (close.count > 0) {
       part = press(cell, pieces_, frame);
+    } else if (is_inside(outline_, middle)) {
+      part = {cell.measure, cell.centroid};
     }
     if (part.measure <= 0.0) continue;
     points.x[points.count] = part.centroid.x();

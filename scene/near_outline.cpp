@@ -8,6 +8,7 @@
 #include "scene/segment_distance.h"
 
 namespace prehensile {
+
 bool is_inside(const std::vector<Vec2>& outline, const Vec2& p) {
   bool inside = false;
   for (std::size_t i = 0, before = outline.size() - 1; i < outline.size(); before = i++) {
@@ -28,35 +29,29 @@ NearOutline::NearOutline(const std::vector<Vec2>& outline, const Vec2& centre,
     const Vec2& b = outline[i];
     const double squared_distance = squared_distance_to_segment(centre, a, b);
     if (squared_distance > radius * radius) continue;
-    if (count_ < kMostNear) near_[count_] = {a, b, squared_distance};
+    if (count_ < kMostNear)
+      near_[count_] = {a, b, (b - a).squaredNorm(), squared_distance};
     ++count_;
   }
 }
 
-double NearOutline::depth_at(const Vec2& p, double within) const noexcept {
-  if (count_ > kMostNear) return depth_inside(outline_, p);
-  double squared_distance = std::numeric_limits<double>::infinity();
+NearOutline::Close NearOutline::close_to(const Vec2& p, double distance,
+                                         double within) const noexcept {
+  if (count_ > kMostNear) {
+    return {std::abs(depth_inside(outline_, p)) < distance ? 2 : 0, nullptr};
+  }
+  Close close;
   for (std::size_t k = 0; k < count_; ++k) {
     const Edge& edge = near_[k];
     if (edge.squared_distance > within * within) continue;
-    squared_distance =
-        std::min(squared_distance, squared_distance_to_segment(p, edge.a, edge.b));
-  }
-  const double distance = std::sqrt(squared_distance);
-  return is_inside(outline_, p) ? distance : -distance;
-}
-
-const NearOutline::Edge* NearOutline::only_edge_at(const Vec2& p, double distance,
-                                                   double within) const noexcept {
-  const Edge* only = nullptr;
-  for (std::size_t k = 0; count_ <= kMostNear && k < count_; ++k) {
-    const Edge& edge = near_[k];
-    if (edge.squared_distance > within * within) continue;
+    // Most edges are farther by their line already.
+    const double area = cross(edge.b - edge.a, p - edge.a);
+    if (area * area > distance * distance * edge.squared_length) continue;
     if (squared_distance_to_segment(p, edge.a, edge.b) >= distance * distance) continue;
-    if (only) return nullptr;
-    only = &edge;
+    if (close.count == 1) return {2, nullptr};
+    close = {1, &edge};
   }
-  return only;
+  return close;
 }
 
 }  // namespace prehensile

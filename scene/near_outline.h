@@ -21,18 +21,21 @@ class NearOutline {
   NearOutline(const std::vector<Vec2>& outline, const Vec2& centre,
               double radius) noexcept;
 
-  /// `depth_inside` of a point p, where no edge farther than `within` from the centre is
-  /// nearest to it; elsewhere the absolute value may be too large.
-  double depth_at(const Vec2& p, double within) const noexcept;
-
   struct Edge {
     Vec2 a, b;
+    double squared_length;    ///< [m^2]
     double squared_distance;  ///< [m^2] from the centre
   };
 
-  /// The only edge closer than `distance` to p; nullptr where more are, or none. `within`
-  /// as above.
-  const Edge* only_edge_at(const Vec2& p, double distance, double within) const noexcept;
+  /// Edges of the outline that are closer than some distance to a point.
+  struct Close {
+    int count = 0;               ///< 2: two or more
+    const Edge* only = nullptr;  ///< where there is one
+  };
+
+  /// Those closer than `distance` to p, all of which must be no farther than `within`
+  /// from the centre.
+  Close close_to(const Vec2& p, double distance, double within) const noexcept;
 
  private:
   static constexpr std::size_t kMostNear = 32;  // where there are more, all are looked at

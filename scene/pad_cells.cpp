@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <initializer_list>
 #include <numbers>
 
 #include "scene/outline.h"
@@ -14,37 +15,43 @@ constexpr double kWider = 1.0 + 1e-9;
 /// rounding.
 constexpr double kRounding = 1e-12;
 
-void find_measure(PadCell& cell) {
-  if (cell.count == 2) {
-    cell.measure = (cell.vertices[1] - cell.vertices[0]).norm();
-    cell.centroid = 0.5 * (cell.vertices[0] + cell.vertices[1]);
-  } else {
-    Vec2 moment = Vec2::Zero();
-    for (int i = 1; i + 1 < cell.count; ++i) {
-      const Vec2& o = cell.vertices[0];
-      const double area = 0.5 * cross(cell.vertices[i] - o, cell.vertices[i + 1] - o);
-      cell.measure += area;
-      moment += area / 3.0 * (o + cell.vertices[i] + cell.vertices[i + 1]);
-    }
-    cell.centroid = moment / cell.measure;
+/// Area, or length of a segment, and centroid.
+struct Measured {
+  double measure = 0.0;
+  Vec2 centroid;
+};
+
+Measured measured(const CellShape& shape) {
+  const auto& vertices = shape.vertices;
+  if (shape.count == 2) {
+    return {(vertices[1] - vertices[0]).norm(), 0.5 * (vertices[0] + vertices[1])};
   }
+  double sum = 0.0;
+  Vec2 moment = Vec2::Zero();
+  const Vec2& o = vertices[0];
+  for (int i = 1; i + 1 < shape.count; ++i) {
+    const double area = 0.5 * cross(vertices[i] - o, vertices[i + 1] - o);
+    sum += area;
+    moment += area / 3.0 * (o + vertices[i] + vertices[i + 1]);
+  }
+  return {sum, moment / sum};
 }
 
-void finish(PadCell& cell) {
-  find_measure(cell);
-  for (int i = 0; i < cell.count; ++i) {
-    cell.reach = std::max(cell.reach, (cell.vertices[i] - cell.centroid).norm());
+double reach_about(const Vec2& centre, const CellShape& shape) {
+  double reach = 0.0;
+  for (int i = 0; i < shape.count; ++i) {
+    reach = std::max(reach, (shape.vertices[i] - centre).norm());
   }
+  return reach;
 }
 
-PadCell quadrilateral(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+PadCell cell_of(std::initializer_list<Vec2> vertices) {
   PadCell cell;
-  cell.count = 4;
-  cell.vertices[0] = a;
-  cell.vertices[1] = b;
-  cell.vertices[2] = c;
-  cell.vertices[3] = d;
-  finish(cell);
+  for (const Vec2& vertex : vertices) cell.shape.add(vertex);
+  const Measured whole = measured(cell.shape);
+  cell.measure = whole.measure;
+  cell.centroid = whole.centroid;
+  cell.reach = reach_about(whole.centroid, cell.shape);
   return cell;
 }
 
@@ -61,7 +68,7 @@ std::vector<PadCell> disc_cells(double radius, int per_side) {
     for (int j = 0; j < spokes; ++j) {
       const Vec2 one(std::cos(j * step), std::sin(j * step));
       const Vec2 two(std::cos((j + 1) * step), std::sin((j + 1) * step));
-      cells.push_back(quadrilateral(inner * one, outer * one, outer * two, inner * two));
+      cells.push_back(cell_of({inner * one, outer * one, outer * two, inner * two}));
     }
   }
   return cells;
@@ -75,8 +82,8 @@ std::vector<PadCell> rectangle_cells(const Vec2& size, int per_side) {
         return Vec2(size.x() * (static_cast<double>(a) / per_side - 0.5),
                     size.y() * (static_cast<double>(b) / per_side - 0.5));
       };
-      cells.push_back(quadrilateral(corner(i, j), corner(i + 1, j), corner(i + 1, j + 1),
-                                    corner(i, j + 1)));
+      cells.push_back(cell_of(
+          {corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)}));
     }
   }
   return cells;
@@ -87,12 +94,8 @@ std::vector<PadCell> line_cells(const LinePad& pad, int per_side) {
   const Vec2 d(std::cos(pad.angle), std::sin(pad.angle));
   std::vector<PadCell> cells;
   for (int i = 0; i < segments; ++i) {
-    PadCell cell;
-    cell.count = 2;
-    cell.vertices[0] = pad.length * (static_cast<double>(i) / segments - 0.5) * d;
-    cell.vertices[1] = pad.length * ((i + 1.0) / segments - 0.5) * d;
-    finish(cell);
-    cells.push_back(cell);
+    cells.push_back(cell_of({pad.length * (static_cast<double>(i) / segments - 0.5) * d,
+                             pad.length * ((i + 1.0) / segments - 0.5) * d}));
   }
   return cells;
 }
@@ -101,36 +104,38 @@ std::vector<PadCell> polygon_cells(const std::vector<Vec2>& outline, int per_sid
   std::vector<PadCell> cells;
   const auto side = static_cast<std::size_t>(per_side);
   for (const Triangle& piece : pieces_of(outline, side * side)) {
-    PadCell& cell = cells.emplace_back();
-    cell.count = 3;
-    std::copy(piece.vertices.begin(), piece.vertices.end(), cell.vertices.begin());
-    finish(cell);
+    cells.push_back(cell_of({piece.vertices[0], piece.vertices[1], piece.vertices[2]}));
   }
   return cells;
 }
 
-/// Cuts the polygon by the half-plane left of a -> b (Sutherland and Hodgman 1974).
-void clip(PadCell& polygon, const Vec2& a, const Vec2& b) {
+/// The part of a shape in the half-plane left of a -> b (Sutherland and Hodgman 1974).
+/// False: all of it is, and `part` is not set.
+bool clip(const CellShape& shape, const Vec2& a, const Vec2& b, CellShape& part) {
   const Vec2 d = b - a;
-  std::array<double, PadCell::kMaxVertices> left;
+  std::array<double, CellShape::kMaxVertices> left;
   bool all_left = true;
-  for (int i = 0; i < polygon.count; ++i) {
-    left[i] = cross(d, polygon.vertices[i] - a);
+  for (int i = 0; i < shape.count; ++i) {
+    left[i] = cross(d, shape.vertices[i] - a);
     all_left = all_left && left[i] >= 0.0;
   }
-  if (all_left) return;
-  PadCell result;
-  for (int i = 0; i < polygon.count; ++i) {
-    const int next = (i + 1) % polygon.count;
-    const Vec2& p = polygon.vertices[i];
-    const Vec2& q = polygon.vertices[next];
-    if (left[i] >= 0.0) result.vertices[result.count++] = p;
-    const bool closes = polygon.count > 2 || i == 0;
+  if (all_left) return false;
+  part.count = 0;
+  for (int i = 0; i < shape.count; ++i) {
+    const int next = i + 1 < shape.count ? i + 1 : 0;
+    const Vec2& p = shape.vertices[i];
+    const Vec2& q = shape.vertices[next];
+    if (left[i] >= 0.0) part.add(p);
+    const bool closes = shape.count > 2 || i == 0;
     if (closes && (left[i] >= 0.0) != (left[next] >= 0.0)) {
-      result.vertices[result.count++] = p + left[i] / (left[i] - left[next]) * (q - p);
+      part.add(p + left[i] / (left[i] - left[next]) * (q - p));
     }
   }
-  polygon = result;
+  return true;
+}
+
+bool is_cell(const CellShape& part, const CellShape& whole) {
+  return part.count >= 3 || (part.count == 2 && whole.count == 2);
 }
 
 /// Whether a circle about p lies right of one of the sides.
@@ -190,43 +195,45 @@ std::vector<PadCell> pad_cells(const Pad& pad, const PadPressure& pressure,
 
 PressedCell press(const PadCell& cell, const std::vector<Triangle>& face,
                   const CellFrame& frame) noexcept {
-  PadCell whole;
-  whole.count = cell.count;
-  for (int i = 0; i < cell.count; ++i)
-    whole.vertices[i] = frame.in_object(cell.vertices[i]);
-  finish(whole);
+  CellShape whole;
+  for (int i = 0; i < cell.shape.count; ++i) {
+    whole.add(frame.in_object(cell.shape.vertices[i]));
+  }
+  const Vec2 centroid = measured(whole).centroid;
+  const double reach = kWider * reach_about(centroid, whole);
   PressedCell pressed;
   Vec2 moment = Vec2::Zero();
+  std::array<CellShape, 2> parts;
   for (const Triangle& triangle : face) {
-    if (is_beside(triangle, whole.centroid, kWider * whole.reach)) continue;
-    PadCell part;
-    part.count = whole.count;
-    part.vertices = whole.vertices;
-    for (int i = 0; i < 3 && part.count > 0; ++i) {
-      clip(part, triangle.vertices[i], triangle.vertices[(i + 1) % 3]);
+    if (is_beside(triangle, centroid, reach)) continue;
+    const CellShape* part = &whole;
+    for (std::size_t i = 0; i < 3 && part->count > 0; ++i) {
+      CellShape& next = part == &parts[0] ? parts[1] : parts[0];
+      if (clip(*part, triangle.vertices[i], triangle.vertices[(i + 1) % 3], next)) {
+        part = &next;
+      }
     }
-    if (part.count < 2 || (cell.count > 2 && part.count < 3)) continue;
-    find_measure(part);
-    if (!(part.measure > 0.0)) continue;
-    pressed.measure += part.measure;
-    moment += part.measure * part.centroid;
+    if (!is_cell(*part, whole)) continue;
+    const Measured in_triangle = measured(*part);
+    if (!(in_triangle.measure > 0.0)) continue;
+    pressed.measure += in_triangle.measure;
+    moment += in_triangle.measure * in_triangle.centroid;
   }
   if (pressed.measure <= 0.0) return pressed;
-  const Vec2 shift = moment / pressed.measure - whole.centroid;
+  const Vec2 shift = moment / pressed.measure - centroid;
   pressed.centroid = cell.centroid + frame.turned_to_hand(shift);
   return pressed;
 }
 
 PressedCell press_at_edge(const PadCell& cell, const Vec2& a, const Vec2& b,
                           const CellFrame& frame) noexcept {
-  PadCell part;
-  part.count = cell.count;
-  part.vertices = cell.vertices;
-  clip(part, frame.in_hand(a), frame.in_hand(b));
-  if (part.count < 2 || (cell.count > 2 && part.count < 3)) return {};
-  find_measure(part);
-  if (!(part.measure > kRounding * cell.measure)) return {};
-  return {part.measure, cell.centroid + part.centroid - cell.middle};
+  CellShape cut;
+  const bool is_cut = clip(cell.shape, frame.in_hand(a), frame.in_hand(b), cut);
+  const CellShape& part = is_cut ? cut : cell.shape;
+  if (!is_cell(part, cell.shape)) return {};
+  const Measured pressed = measured(part);
+  if (!(pressed.measure > kRounding * cell.measure)) return {};
+  return {pressed.measure, cell.centroid + pressed.centroid - cell.middle};
 }
 
 }  // namespace prehensile

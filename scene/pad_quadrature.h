@@ -44,13 +44,18 @@ Pad in_plane_equivalent(const Pad& pad);
 /// Largest distance of a pad point from the finger axis [m].
 double pad_reach(const Pad& pad);
 
-/// A small convex part of the pad in H; a line pad is cut into segments (two vertices).
-struct PadCell {
+/// A convex polygon, or a segment (two vertices).
+struct CellShape {
   static constexpr int kMaxVertices = 12;
-  PadCell() { vertices.fill(Vec2::Zero()); }
-
   int count = 0;
-  std::array<Vec2, kMaxVertices> vertices;
+  std::array<Vec2, kMaxVertices> vertices;  ///< entries from `count` on are not set
+
+  void add(const Vec2& vertex) { vertices[count++] = vertex; }
+};
+
+/// A small convex part of the pad in H; a line pad is cut into segments.
+struct PadCell {
+  CellShape shape;
   double measure = 0.0;          ///< [m^2], or [m] for a segment
   Vec2 centroid = Vec2::Zero();  ///< [m]
   Vec2 middle = Vec2::Zero();    ///< [m] the centroid before it is scaled

@@ -56,10 +56,12 @@ void add_places_along(const Model& model, int index, double margin,
   }
 }
 
-/// How far a point may be from the middle of its face; negative if nowhere on it.
+/// How far a point may be from the middle of its face; negative if nowhere on it. Not to
+/// the very end, where rounding may leave it beside the face.
 double room_of_point(const Model& model, int index, const Margin& margin) {
+  constexpr double kRounding = 1e-9;  // [m]
   const PushContact& contact = model.contacts[index];
-  return 0.5 * (contact.b - contact.a).norm() - margin.place;
+  return 0.5 * (contact.b - contact.a).norm() - margin.place - kRounding;
 }
 
 SearchContact point(const Model& model, int index, double room) {

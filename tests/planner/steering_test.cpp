@@ -260,6 +260,32 @@ TEST(Steering, MovesArriveWhenThePushIsApplied) {
   }
 }
 
+/// Faces of polygons are as long as rounding leaves them.
+TEST(Steering, PointsAreNeverBesideTheirFace) {
+  int points = 0;
+  for (std::uint64_t index = 0; index < 100; ++index) {
+    const auto problem = random_fixture({.object = FixtureObject::kConcave,
+                                         .pushers = FixturePushers::kPoints,
+                                         .goals = GoalsFrom::kRandom},
+                                        4, index);
+    const Model model = prepare(problem->scene);
+    const Grasp& grasp = problem->scene.start;
+    for (const SearchContact& contact : prepare_search(model, Margin::none()).contacts) {
+      if (!model.contacts[contact.contact].is_point) continue;
+      for (const double place : {contact.place_low, contact.place_high}) {
+        LinearPush push;
+        push.contact = contact.contact;
+        push.place = place;
+        push.e = contact.stick.n;
+        push.travel = 1e-6;
+        EXPECT_NE(apply(model, grasp, push).reason, "the pusher stands beside the face");
+        ++points;
+      }
+    }
+  }
+  EXPECT_GT(points, 200);
+}
+
 TEST(Steering, NeedsNoHeap) {
   Scene scene = scene_with(RectanglePad{{0.01, 0.02}}, PointFeature{}, true);
   scene.overhang = Overhang::kClip;

@@ -20,6 +20,10 @@ constexpr int kStride = 3;
 /// that differ meet half way at each of these places.
 constexpr std::size_t kMostBetween = 4000;
 
+/// Pushes by points turn the object a little otherwise than straight ways say: nodes are
+/// so far inside the face [m].
+constexpr double kBesidePoints = 2e-4;
+
 /// Of this many spacings pushes from the start and to the goals are, at most.
 constexpr double kReach = 1.5 * kStride;
 
@@ -52,9 +56,12 @@ WalkLattice::WalkLattice(const SearchModel& search, const FlatState& start,
 }
 
 void WalkLattice::add_nodes() {
+  const bool points = std::ranges::any_of(
+      model_.contacts, [](const PushContact& contact) { return contact.is_point; });
+  const double depth = points ? kBesidePoints : 0.0;
   at_grid_.assign(grid_.count(), -1);
   for (int k = 0; k < grid_.count(); ++k) {
-    if (depth_inside(model_.pad_face, grid_.place(k)) < 0.0) continue;
+    if (depth_inside(model_.pad_face, grid_.place(k)) < depth) continue;
     at_grid_[k] = static_cast<int>(nodes_.size());
     nodes_.push_back({grid_.place(k)});
     on_grid_.push_back(k);

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "mechanics/pad_law.h"
+#include "planner/steering.h"
 #include "tests/planner/clipped_cases.h"
 #include "tests/planner/law_cases.h"
 
@@ -165,6 +167,35 @@ TEST(ClippedLaw, WideningCoversPlacesBetween) {
     }
   }
   EXPECT_GT(most, 0.1);
+}
+
+/// At no angle of the object do the points that stand for the discs resist a fall by more
+/// than what a barrier wants it to leave (1 %) over the points spread over all angles.
+TEST(ClippedLaw, FallsMeetTheSameFrictionAtEveryAngle) {
+  Random random(15);
+  int falls = 0;
+  while (falls < 200) {
+    Scene scene = random_clipped_scene(random);
+    scene.g_W = 9.81 * random.direction();
+    scene.gripper.grip_force = random.log_in(0.1, 5.0);
+    const Model model = prepare(scene);
+    const Vec2 p_OF = clipped_place(model, random);
+    const Vec2& g_O = model.contacts[0].g_O;
+    PlanarTwist fall = PlanarTwist::Zero();
+    const auto grasp = [&](double theta) {
+      return grasp_at(model, pose_from_finger(p_OF, theta), g_O);
+    };
+    if (gravity_slack_by_pad_law(model, grasp(0.0), &fall) >= 0.0) continue;
+    ++falls;
+    const double spread =
+        model.F * SpreadPads(model, p_OF).power(fall.head<2>(), fall[2]);
+    for (int k = 0; k < 24; ++k) {
+      const double theta = 2.0 * kPi * k / 24;
+      PlanarTwist turned = fall;
+      turned.head<2>() = rotated(theta, Vec2(fall.head<2>()));
+      EXPECT_LT(friction_power(model, grasp(theta), turned), 1.01 * spread);
+    }
+  }
 }
 
 /// The inequalities are those of the slack, whose sign they share.

@@ -18,7 +18,7 @@ constexpr int kStride = 3;
 
 /// Pads half way between nodes that are kept, at most: some 3 KB each. Five or six steps
 /// that differ meet half way at each of these places.
-constexpr std::size_t kMostBetween = 4000;
+constexpr std::size_t kMostBetween = 500;
 
 /// Pushes by points turn the object a little otherwise than straight ways say: nodes are
 /// so far inside the face [m].

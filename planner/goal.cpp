@@ -25,6 +25,7 @@ constexpr double kUsed = 0.9;
 constexpr int kTurns = 7;
 constexpr int kWindings = 3;
 constexpr int kDirections = 8;
+constexpr int kWound = 8;  // places, each of three more whole turns
 
 /// 0, 1, -1, 2, -2, ... times the step.
 double offset(int i, double step) { return step * (i % 2 == 0 ? -i / 2 : (i + 1) / 2); }
@@ -63,6 +64,13 @@ class PlaceCollector {
     }
   }
 
+  /// The goal that fixes all, by more whole turns than add_angle.
+  void add_wound(double theta) {
+    for (int i = 1; i <= kWound; ++i) {
+      add(theta, {*goal_.x, *goal_.y}, kWindings, i * kWindings);
+    }
+  }
+
   /// Places at one angle that are off the goal by this, and the one that is not.
   void add_around(double theta, double off) {
     const Vec2 place{*goal_.x, *goal_.y};
@@ -83,12 +91,12 @@ class PlaceCollector {
   }
 
  private:
-  void add(double theta, const Vec2& position, int windings) {
+  void add(double theta, const Vec2& position, int windings, int first = 0) {
     const Vec2 p_OF = -rotated(-theta, position);
     if (places_.count == GoalPlaces::kCapacity || !contains(model_.pad_face, p_OF))
       return;
     GoalPlace place{.p_OF = p_OF};
-    for (int i = 0; i < windings; ++i) {
+    for (int i = first; i < first + windings; ++i) {
       const double angle = theta + offset(i, 2.0 * kPi);
       if (limits_admit(model_.scene, {p_OF, angle})) place.theta[place.count++] = angle;
     }
@@ -147,6 +155,15 @@ GoalPlaces goal_places(const Model& model, const Goal& goal,
       collector.add_angle(start.theta + degrees * kPi / 180.0);
     }
   }
+  return collector.sorted();
+}
+
+GoalPlaces wound_places(const Model& model, const Goal& goal,
+                        const FlatState& start) noexcept {
+  const bool is_fixed = goal.x && goal.y && goal.theta;
+  if (!is_fixed || goal.theta_is == ThetaMeaning::kNumber) return {};
+  PlaceCollector collector(model, goal, start);
+  collector.add_wound(nearest_angle(goal, start.theta));
   return collector.sorted();
 }
 

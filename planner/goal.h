@@ -42,6 +42,11 @@ struct GoalPlaces {
 GoalPlaces goal_places(const Model& model, const Goal& goal,
                        const FlatState& start) noexcept;
 
+/// A goal that fixes place and angle, at more whole turns than goal_places: two to
+/// thirteen to either side, the fewest first. None where the angle is a number.
+GoalPlaces wound_places(const Model& model, const Goal& goal,
+                        const FlatState& start) noexcept;
+
 /// A plan that ends off the goal, within its tolerances, must cost less than this share
 /// of the best one that does not.
 inline constexpr double kWorthTolerance = 0.9;

@@ -115,6 +115,22 @@ std::optional<std::vector<Move>> search_within_tolerance(const SearchModel& sear
   return moves_of(search, from, found->chain);
 }
 
+/// One push that winds the object up by more whole turns than the nearest three, or two
+/// over pads that the search knows exactly.
+std::optional<std::vector<Move>> search_wound(const SearchModel& search,
+                                              const FlatState& from, const Goal& goal,
+                                              double bound, const Limits& limits,
+                                              Work& work) {
+  const GoalPlaces places = wound_places(*search.model, goal, from);
+  if (const auto move = direct_push(search, from, places, work)) {
+    return std::vector{*move};
+  }
+  if (!search.exact_everywhere) return std::nullopt;
+  const auto found = search_chains(search, from, places, bound, limits, work);
+  if (!found) return std::nullopt;
+  return moves_of(search, from, found->chain);
+}
+
 /// Fills the pushes in the pad plane; false if none were found.
 bool plan_in_plane(const SearchModel& search, const Grasp& start, const Goal& goal,
                    WalkLattices& lattices, const Limits& limits, Work& work, Plan& plan) {
@@ -131,6 +147,13 @@ bool plan_in_plane(const SearchModel& search, const Grasp& start, const Goal& go
     const double to_beat = found ? kWorthTolerance * found->chain.cost : kInfinity;
     if (cost_of(search, *near) < to_beat) {
       for (const Move& move : *near) append_move(search, move, plan);
+      return true;
+    }
+  }
+  if (!found) {
+    const auto wound = search_wound(search, from, goal, bound, limits, work);
+    if (wound && cost_of(search, *wound) < kDearPair) {
+      for (const Move& move : *wound) append_move(search, move, plan);
       return true;
     }
   }

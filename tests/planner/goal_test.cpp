@@ -1,6 +1,8 @@
 #include "planner/goal.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -65,6 +67,34 @@ TEST(Goal, PlacesMeetTheGoalOnTheObjectNearestFirst) {
       last = distance;
     }
   }
+}
+
+TEST(Goal, WoundPlacesAreTheWholeTurnsThatOthersLeaveOut) {
+  const Model model = prepare(published_tee(3));
+  Goal goal = goal_at({0.01, 0.0}, 1.0);
+  const FlatState start{{-0.02, 0.01}, 7.0};
+  std::vector<double> turns;
+  for (const GoalPlaces& places :
+       {goal_places(model, goal, start), wound_places(model, goal, start)}) {
+    for (int k = 0; k < places.count; ++k) {
+      const GoalPlace& place = places.places[k];
+      for (int j = 0; j < place.count; ++j) {
+        EXPECT_TRUE(reaches(goal, grasp_of({place.p_OF, place.theta[j]}, 0.0)));
+        turns.push_back((place.theta[j] - 1.0) / (2.0 * kPi));
+      }
+    }
+  }
+  std::ranges::sort(turns);
+  ASSERT_EQ(turns.size(), 27u);
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    EXPECT_NEAR(turns[i] - turns[0], static_cast<double>(i), 1e-9);
+  }
+  EXPECT_NEAR(turns[13], 1.0, 1e-9);  // the nearest to the start
+  goal.theta_is = ThetaMeaning::kNumber;
+  EXPECT_EQ(wound_places(model, goal, start).count, 0);
+  goal.theta_is = ThetaMeaning::kAngle;
+  goal.y.reset();
+  EXPECT_EQ(wound_places(model, goal, start).count, 0);
 }
 
 TEST(Goal, RollNeededIsTheShortWayRound) {

@@ -81,6 +81,8 @@ class PlaceCollector {
     }
   }
 
+  const GoalPlaces& as_added() const { return places_; }
+
   GoalPlaces sorted() {
     std::sort(places_.places.begin(), places_.places.begin() + places_.count,
               [this](const GoalPlace& a, const GoalPlace& b) {
@@ -164,7 +166,7 @@ GoalPlaces wound_places(const Model& model, const Goal& goal,
   if (!is_fixed || goal.theta_is == ThetaMeaning::kNumber) return {};
   PlaceCollector collector(model, goal, start);
   collector.add_wound(nearest_angle(goal, start.theta));
-  return collector.sorted();
+  return collector.as_added();
 }
 
 GoalPlaces tolerated_places(const Model& model, const Goal& goal,

@@ -93,6 +93,7 @@ std::vector<PadCell> line_cells(const LinePad& pad, int per_side) {
   const int segments = 4 * per_side;
   const Vec2 d(std::cos(pad.angle), std::sin(pad.angle));
   std::vector<PadCell> cells;
+  cells.reserve(static_cast<std::size_t>(segments));
   for (int i = 0; i < segments; ++i) {
     cells.push_back(cell_of({pad.length * (static_cast<double>(i) / segments - 0.5) * d,
                              pad.length * ((i + 1.0) / segments - 0.5) * d}));

@@ -18,6 +18,7 @@
 #include "planner/roll_step.h"
 #include "planner/shorten.h"
 #include "planner/walk_search.h"
+#include "planner/wound_search.h"
 
 namespace prehensile {
 namespace {
@@ -115,22 +116,6 @@ std::optional<std::vector<Move>> search_within_tolerance(const SearchModel& sear
   return moves_of(search, from, found->chain);
 }
 
-/// One push that winds the object up by more whole turns than the nearest three, or two
-/// over pads that the search knows exactly.
-std::optional<std::vector<Move>> search_wound(const SearchModel& search,
-                                              const FlatState& from, const Goal& goal,
-                                              double bound, const Limits& limits,
-                                              Work& work) {
-  const GoalPlaces places = wound_places(*search.model, goal, from);
-  if (const auto move = direct_push(search, from, places, work)) {
-    return std::vector{*move};
-  }
-  if (!search.exact_everywhere) return std::nullopt;
-  const auto found = search_chains(search, from, places, bound, limits, work);
-  if (!found) return std::nullopt;
-  return moves_of(search, from, found->chain);
-}
-
 /// Fills the pushes in the pad plane; false if none were found.
 bool plan_in_plane(const SearchModel& search, const Grasp& start, const Goal& goal,
                    WalkLattices& lattices, const Limits& limits, Work& work, Plan& plan) {
@@ -151,8 +136,7 @@ bool plan_in_plane(const SearchModel& search, const Grasp& start, const Goal& go
     }
   }
   if (!found) {
-    const auto wound = search_wound(search, from, goal, bound, limits, work);
-    if (wound && cost_of(search, *wound) < kDearPair) {
+    if (const auto wound = search_wound(search, from, goal, goals, bound, limits, work)) {
       for (const Move& move : *wound) append_move(search, move, plan);
       return true;
     }

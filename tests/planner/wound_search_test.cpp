@@ -1,4 +1,4 @@
-#include "planner/push_search.h"
+#include "planner/wound_search.h"
 
 #include <cmath>
 #include <numbers>
@@ -45,7 +45,7 @@ std::optional<FlatState> wound_up(const SearchModel& search, const FlatState& fr
 }
 
 /// Far from its middle a face turns the object much or not at all.
-TEST(PushSearch, GoalsOfManyTurnsTakeFewPushesAndLittleWork) {
+TEST(WoundSearch, GoalsOfManyTurnsTakeFewPushesAndLittleWork) {
   Random random(1);
   for (int goals = 0; goals < 40;) {
     Scene scene = scene_with(DiscPad{0.009}, LineFeature{});

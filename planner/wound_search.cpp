@@ -1,0 +1,48 @@
+#include "planner/wound_search.h"
+
+#include "planner/chain_search.h"
+#include "planner/cheapen.h"
+#include "planner/push_search.h"
+#include "planner/shorten.h"
+
+namespace prehensile {
+namespace {
+
+/// What winds the object up for less is taken as it is; for more, three and more pushes
+/// are looked for with so much work first.
+constexpr double kCheap = 3.0;
+constexpr std::int64_t kWorkOnMorePushes = 50'000;
+
+std::optional<std::vector<Move>> one_or_two(const SearchModel& search,
+                                            const FlatState& from, const Goal& goal,
+                                            double bound, const Limits& limits,
+                                            Work& work) {
+  const GoalPlaces wound = wound_places(*search.model, goal, from);
+  if (const auto move = direct_push(search, from, wound, work)) {
+    return std::vector{*move};
+  }
+  if (!search.exact_everywhere) return std::nullopt;
+  const auto found = search_chains(search, from, wound, bound, limits, work);
+  if (!found) return std::nullopt;
+  return moves_of(search, from, found->chain);
+}
+
+}  // namespace
+
+std::optional<std::vector<Move>> search_wound(const SearchModel& search,
+                                              const FlatState& from, const Goal& goal,
+                                              const GoalPlaces& goals, double bound,
+                                              const Limits& limits, Work& work) {
+  auto moves = one_or_two(search, from, goal, bound, limits, work);
+  if (!moves) return std::nullopt;
+  const double cost = cost_of(search, *moves);
+  if (cost >= kDearPair) return std::nullopt;
+  if (cost < kCheap) return moves;
+  const auto more = within_budget(work, kWorkOnMorePushes, [&] {
+    return search_exact_chains(search, from, goals, limits, work);
+  });
+  if (more && more->chain.cost < cost) return moves_of(search, from, more->chain);
+  return moves;
+}
+
+}  // namespace prehensile

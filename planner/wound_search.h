@@ -1,0 +1,23 @@
+/// Goals that are met only where the object winds up: by more whole turns than the stages
+/// of few pushes look at. Internal to the own planner.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "planner/goal.h"
+#include "planner/limits.h"
+
+namespace prehensile {
+
+/// Where those stages find nothing: one push to the goal by two to thirteen whole turns
+/// more, or two over pads that the search knows exactly; or three and more to `goals`
+/// where a short search finds such and they cost less. None that cost kDearPair and more.
+///
+/// `bound`: as of search_chains.
+std::optional<std::vector<Move>> search_wound(const SearchModel& search,
+                                              const FlatState& from, const Goal& goal,
+                                              const GoalPlaces& goals, double bound,
+                                              const Limits& limits, Work& work);
+
+}  // namespace prehensile

@@ -13,10 +13,17 @@ namespace {
 constexpr double kCheap = 3.0;
 constexpr std::int64_t kWorkOnMorePushes = 50'000;
 
+/// What a few places along a push say of pads that change with the angle is nothing where
+/// the object turns many times.
+bool are_alike_at_every_angle(const SearchModel& search) {
+  return search.exact_everywhere || search.model->region.is_isotropic();
+}
+
 std::optional<std::vector<Move>> one_or_two(const SearchModel& search,
                                             const FlatState& from, const Goal& goal,
                                             double bound, const Limits& limits,
                                             Work& work) {
+  if (!are_alike_at_every_angle(search)) return std::nullopt;
   const GoalPlaces wound = wound_places(*search.model, goal, from);
   if (const auto move = direct_push(search, from, wound, work)) {
     return std::vector{*move};

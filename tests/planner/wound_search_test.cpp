@@ -6,8 +6,11 @@
 #include <gtest/gtest.h>
 
 #include "mechanics/sticking.h"
+#include "planner/chain.h"
+#include "planner/cheapen.h"
 #include "planner/goal.h"
 #include "planner/planner.h"
+#include "planner/shorten.h"
 #include "tests/planner/walled_scene.h"
 #include "tests/support/random.h"
 
@@ -45,28 +48,40 @@ std::optional<FlatState> wound_up(const SearchModel& search, const FlatState& fr
 }
 
 /// Far from its middle a face turns the object much or not at all.
-TEST(WoundSearch, GoalsOfManyTurnsTakeFewPushesAndLittleWork) {
+TEST(WoundSearch, FindsPushesNoDearerThanTheOneThatWindsUp) {
   Random random(1);
+  int found = 0;
   for (int goals = 0; goals < 40;) {
     Scene scene = scene_with(DiscPad{0.009}, LineFeature{});
     scene.g_W.setZero();
     scene.pushers.resize(1);
     scene.start.X_HO =
         pose_from_finger(random.in_box(0.045, 0.045), random.in(-3.0, 3.0));
+    const FlatState from = flat_state(scene.start);
     const Model model = prepare(scene);
     const SearchModel search = prepare_search(model, Margin::none());
-    const auto end = wound_up(search, flat_state(scene.start), random);
+    const auto end = wound_up(search, from, random);
     if (!end) continue;
     ++goals;
     const PlanarPose there = grasp_of(*end, 0.0).X_HO;
-    scene.goal = Goal{.x = there.x, .y = there.y, .theta = wrapped(there.theta)};
+    const Goal goal{.x = there.x, .y = there.y, .theta = wrapped(there.theta)};
+    const double cost_of_one = cost_of(search, {{0, from, *end}});
+    if (cost_of_one >= kDearPair) continue;
+    ++found;
     PlanOptions options;
-    options.margin = Margin::none();
-    options.budget = 20'000;
-    const Plan plan = plan_regrasp(prepare(scene), options);
-    ASSERT_TRUE(plan.usable()) << goals << ": " << plan.message;
-    EXPECT_LE(plan.pushes.size(), 2u) << goals;
+    Work work{.budget = kUnlimited};
+    const Limits limits(options, work);
+    const auto moves = search_wound(search, from, goal, goal_places(model, goal, from),
+                                    1.0, limits, work);
+    ASSERT_TRUE(moves) << goals;
+    EXPECT_LE(cost_of(search, *moves), cost_of_one + 1e-9) << goals;
+    EXPECT_TRUE(reaches(goal, grasp_of(moves->back().to, 0.0))) << goals;
+    for (const Move& move : *moves) {
+      EXPECT_GE(exact_slack(search, move, work), -kStickTolerance) << goals;
+    }
+    EXPECT_LT(work.done(), 200'000) << goals;
   }
+  EXPECT_GT(found, 10);
 }
 
 }  // namespace

@@ -38,9 +38,8 @@ constexpr double kUnevenIfSpread = 0.01;
 /// Angles of the object at which pads that are not round are looked at.
 constexpr int kAnglesOfPads = 48;
 
-/// Pieces where the face clips the discs, in their torque radii: from the longest that
-/// are looked at to the shortest that are cut.
-constexpr double kLongestClipped = 0.07;
+/// Pieces where the face clips the discs, in their torque radii: the shortest that are
+/// cut.
 constexpr double kShortestClipped = 0.02;
 
 bool refuse(std::string* why, const char* text) {
@@ -195,9 +194,9 @@ class BorderLaw {
     if (depth < -0.5 * piece.length()) return true;
     const bool whole = is_whole(piece);
     const double c = model_.c;
-    if (whole
-            ? all_blocked(piece)
-            : piece.length() <= kLongestClipped * c && all_blocked_where_clipped(piece)) {
+    if (whole ? all_blocked(piece)
+              : piece.length() <= ClippedLaw::kLongest * c &&
+                    all_blocked_where_clipped(piece)) {
       return true;
     }
     if (cuts == 0 || (!whole && piece.length() < kShortestClipped * c)) return false;

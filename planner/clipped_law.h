@@ -20,9 +20,20 @@ namespace prehensile {
 /// points, about which the object turns as the points of the pads let it.
 bool has_clipped_law(const Model& model);
 
+/// Friction (force, moment / c) over F of pads such as SpreadPads in a motion (velocity
+/// of the object at the finger axis, c times its rate of turn).
+template <class Pads>
+Eigen::Vector3d friction_in(const Pads& pads, const Eigen::Vector3d& motion, double c) {
+  const PadDrag drag = pads.drag(motion.head<2>(), motion[2] / c);
+  return {drag.force.x(), drag.force.y(), drag.moment / c};
+}
+
 class ClippedLaw {
  public:
-  /// Of motions across `line`, of up to 0.07 torque radii, towards `out`.
+  /// Lines may be so long, in torque radii: the widening was measured up to there.
+  static constexpr double kLongest = 0.07;
+
+  /// Of motions across `line`, kLongest at most, towards `out`.
   /// `model` has clipped discs (has_clipped_discs) and must outlive the law.
   ClippedLaw(const Model& model, const PlaceSpan& line, const Vec2& out);
 
@@ -67,8 +78,8 @@ class StickDemands {
   int count_ = 0;
 };
 
-/// So much more than at both ends of a line an inequality of a sticking instant may leave
-/// at a place between them, over F, with the pads at the ends.
+/// So much more than at both ends of a line (ClippedLaw::kLongest at most) an inequality
+/// of a sticking instant may leave at a place between them, over F. Measured, not proved.
 double widening_between(const SpreadPads& at_a, const SpreadPads& at_b,
                         const PlaceSpan& line, double c);
 

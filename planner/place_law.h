@@ -75,7 +75,7 @@ class DirectedDrag {
   /// know. Must not outlive this.
   DirectedDrag opposite() noexcept;
 
-  /// One of the kappas that are looked at, as the angle of (1, kappa) [rad].
+  /// One of the kappas that are looked at, and the angle of (1, kappa) [rad].
   struct Slope {
     double angle, cosine, sine, kappa;
   };

@@ -52,9 +52,11 @@ class Asked {
  public:
   Asked(const Model& model, const Vec2& p_OF) : model_(model), p_OF_(p_OF) {
     const bool whole = model.region.is_whole(pose_from_finger(p_OF, 0.0));
+    const PushContact* before = nullptr;
+    double held = 0.0;
     for (const PushContact& contact : model.contacts) {
-      const bool again = !asked_.empty() && contact.g_O == asked_.back().contact->g_O;
-      const double held = again ? asked_.back().held : held_at(contact.g_O, whole);
+      if (!before || contact.g_O != before->g_O) held = held_at(contact.g_O, whole);
+      before = &contact;
       if (held < kHopeless) continue;
       asked_.push_back({&contact, {model, contact, p_OF}, held});
     }
@@ -88,8 +90,10 @@ class Asked {
 
   /// What the friction has more than gravity asks of the grasp alone.
   double held_at(const Vec2& g_O, bool whole) const {
-    const double by_ellipsoid = holding_slack(model_, p_OF_, g_O, Margin::none());
-    if (whole && std::abs(by_ellipsoid) > kFarFromFalling) return by_ellipsoid;
+    if (whole) {
+      const double by_ellipsoid = holding_slack(model_, p_OF_, g_O, Margin::none());
+      if (std::abs(by_ellipsoid) > kFarFromFalling) return by_ellipsoid;
+    }
     const PlanarGrasp grasp = grasp_at(model_, pose_from_finger(p_OF_, 0.0), g_O);
     if (grasp.count == 0) return -kInfinity;
     return gravity_slack_by_pad_law(model_, grasp) + kSurelyMissing;
@@ -202,10 +206,7 @@ PlaceSlacks::Profile PlaceSlacks::looked_at(const Vec2& p_OF) const {
     const Vec2 e = -towards(FreeDirections::direction(k));
     slacks[k] = most_over_slopes(kSlopesWhereClipped, [&](double angle) {
       const Eigen::Vector3d motion = motion_along(e, angle);
-      return asked.slack(motion, [&] {
-        const PadDrag drag = pads.drag(motion.head<2>(), motion[2] / model_.c);
-        return Eigen::Vector3d(drag.force.x(), drag.force.y(), drag.moment / model_.c);
-      });
+      return asked.slack(motion, [&] { return friction_in(pads, motion, model_.c); });
     });
   }
   for (int k = 1; k < kDirections; k += kStrideWhereClipped) {

@@ -135,7 +135,7 @@ bool plan_in_plane(const SearchModel& search, const Grasp& start, const Goal& go
       return true;
     }
   }
-  if (!found && !limits.reached()) {
+  if (!found && !limits.improves() && !limits.reached()) {
     if (const auto wound = search_wound(search, from, goal, goals, bound, limits, work)) {
       for (const Move& move : *wound) append_move(search, move, plan);
       return true;

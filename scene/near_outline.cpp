@@ -29,8 +29,9 @@ NearOutline::NearOutline(const std::vector<Vec2>& outline, const Vec2& centre,
     const Vec2& b = outline[i];
     const double squared_distance = squared_distance_to_segment(centre, a, b);
     if (squared_distance > radius * radius) continue;
-    if (count_ < kMostNear)
+    if (count_ < kMostNear) {
       near_[count_] = {a, b, (b - a).squaredNorm(), squared_distance};
+    }
     ++count_;
   }
 }

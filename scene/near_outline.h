@@ -29,7 +29,7 @@ class NearOutline {
 
   /// Edges of the outline that are closer than some distance to a point.
   struct Close {
-    int count = 0;               ///< 2: two or more
+    int count = 0;               ///< 2: two or more, or some of too many nearby
     const Edge* only = nullptr;  ///< where there is one
   };
 

@@ -40,7 +40,7 @@ struct Line {
 Line random_line(const Model& model, Random& random) {
   const Vec2 a = clipped_place(model, random);
   const Vec2 along = random.direction();
-  const double length = random.log_in(0.005, 0.07) * model.c;
+  const double length = random.log_in(0.005, ClippedLaw::kLongest) * model.c;
   return {{a, a + length * along}, random.chance(0.5) ? perp(along) : Vec2(-perp(along))};
 }
 
@@ -127,12 +127,6 @@ TEST(ClippedLaw, FallsWhereGravityIsStrongerThanThePads) {
   EXPECT_FALSE(falls(5.0 * grip_of_weight));
 }
 
-Eigen::Vector3d friction_of(const SpreadPads& pads, const Eigen::Vector3d& motion,
-                            double c) {
-  const PadDrag drag = pads.drag(motion.head<2>(), motion[2] / c);
-  return {drag.force.x(), drag.force.y(), drag.moment / c};
-}
-
 /// No inequality of any motion leaves more between the ends than at one of them and the
 /// widening.
 TEST(ClippedLaw, WideningCoversPlacesBetween) {
@@ -156,7 +150,7 @@ TEST(ClippedLaw, WideningCoversPlacesBetween) {
       const Vec2 e = random.direction();
       const Eigen::Vector3d motion(e.x(), e.y(), random_kappa(random));
       const auto left = [&](const StickDemands& of, const SpreadPads& pads, int i) {
-        return of[i].eta.dot(friction_of(pads, motion, model.c)) + of[i].constant;
+        return of[i].eta.dot(friction_in(pads, motion, model.c)) + of[i].constant;
       };
       for (int i = 0; i < demands.count(); ++i) {
         const double at_ends = std::max(left(of_a, at_a, i), left(of_b, at_b, i));

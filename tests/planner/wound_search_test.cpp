@@ -11,6 +11,7 @@
 #include "planner/goal.h"
 #include "planner/planner.h"
 #include "planner/shorten.h"
+#include "problems/published_regrasps.h"
 #include "tests/planner/walled_scene.h"
 #include "tests/support/random.h"
 
@@ -82,6 +83,20 @@ TEST(WoundSearch, FindsPushesNoDearerThanTheOneThatWindsUp) {
     EXPECT_LT(work.done(), 200'000) << goals;
   }
   EXPECT_GT(found, 10);
+}
+
+/// A search for cheaper plans does not end with one that winds the object up.
+TEST(WoundSearch, IsNoEndOfASearchForCheaperPlans) {
+  const Model model =
+      prepare(random_among_walls(true, RegraspRange::kWide, true, 1, 124));
+  PlanOptions options;
+  options.budget = 2'000'000;
+  const Plan plan = plan_regrasp(model, options);
+  ASSERT_TRUE(plan.usable()) << plan.message;
+  const double turned = plan.goal.X_HO.theta - plan.start.X_HO.theta;
+  EXPECT_GT(std::abs(turned), 2.0 * kTurn);
+  options.improve = true;
+  EXPECT_LT(plan_regrasp(model, options).cost, 0.8 * plan.cost);
 }
 
 }  // namespace

@@ -25,7 +25,13 @@ constexpr double kUsed = 0.9;
 constexpr int kTurns = 7;
 constexpr int kWindings = 3;
 constexpr int kDirections = 8;
-constexpr int kWound = 8;  // places, each of three more whole turns
+
+bool fixes_all(const Goal& goal) { return goal.x && goal.y && goal.theta; }
+
+/// Fixes all, and counts angles by whole turns.
+bool winds(const Goal& goal) {
+  return fixes_all(goal) && goal.theta_is == ThetaMeaning::kAngle;
+}
 
 /// 0, 1, -1, 2, -2, ... times the step.
 double offset(int i, double step) { return step * (i % 2 == 0 ? -i / 2 : (i + 1) / 2); }
@@ -66,20 +72,33 @@ class PlaceCollector {
 
   /// The goal that fixes all, by more whole turns than add_angle.
   void add_wound(double theta) {
-    for (int i = 1; i <= kWound; ++i) {
-      add(theta, {*goal_.x, *goal_.y}, kWindings, i * kWindings);
+    for (int share = 0; share < kWoundShares; ++share) {
+      add(theta, {*goal_.x, *goal_.y}, kWindings, first_of(share));
     }
   }
 
-  /// Places at one angle that are off the goal by this, and the one that is not.
-  void add_around(double theta, double off) {
-    const Vec2 place{*goal_.x, *goal_.y};
-    add(theta, place, 1);
-    if (off <= 0.0) return;
-    for (int i = 0; i < kDirections; ++i) {
-      add(theta, place + rotated(2.0 * kPi * i / kDirections, {off, 0.0}), 1);
+  /// Places off the goal that fixes all by what its tolerances leave, and those that are
+  /// not; at such whole turns.
+  void add_tolerated(double middle, int windings, int first) {
+    const bool shared = goal_.test == GoalTest::kWeightedSum;
+    const double most =
+        kUsed * (shared ? goal_.position_tolerance / goal_.characteristic_length
+                        : goal_.angle_tolerance);
+    for (int i = 0; i < kTurns; ++i) {
+      const double turn = most * offset(i, 2.0 / (kTurns - 1));
+      const double used = shared ? goal_.characteristic_length * std::abs(turn) : 0.0;
+      const double off = kUsed * goal_.position_tolerance - used;
+      const Vec2 place{*goal_.x, *goal_.y};
+      add(middle + turn, place, windings, first);
+      if (off <= 0.0) continue;
+      for (int k = 0; k < kDirections; ++k) {
+        const Vec2 beside = rotated(2.0 * kPi * k / kDirections, {off, 0.0});
+        add(middle + turn, place + beside, windings, first);
+      }
     }
   }
+
+  static int first_of(int share) { return (share + 1) * kWindings; }
 
   const GoalPlaces& as_added() const { return places_; }
 
@@ -162,8 +181,7 @@ GoalPlaces goal_places(const Model& model, const Goal& goal,
 
 GoalPlaces wound_places(const Model& model, const Goal& goal,
                         const FlatState& start) noexcept {
-  const bool is_fixed = goal.x && goal.y && goal.theta;
-  if (!is_fixed || goal.theta_is == ThetaMeaning::kNumber) return {};
+  if (!winds(goal)) return {};
   PlaceCollector collector(model, goal, start);
   collector.add_wound(nearest_angle(goal, start.theta));
   return collector.as_added();
@@ -171,18 +189,18 @@ GoalPlaces wound_places(const Model& model, const Goal& goal,
 
 GoalPlaces tolerated_places(const Model& model, const Goal& goal,
                             const FlatState& start) noexcept {
-  if (!goal.x || !goal.y || !goal.theta) return {};
+  if (!fixes_all(goal)) return {};
   PlaceCollector collector(model, goal, start);
-  const double middle = nearest_angle(goal, start.theta);
-  const bool shared = goal.test == GoalTest::kWeightedSum;
-  const double most =
-      kUsed * (shared ? goal.position_tolerance / goal.characteristic_length
-                      : goal.angle_tolerance);
-  for (int i = 0; i < kTurns; ++i) {
-    const double turn = most * offset(i, 2.0 / (kTurns - 1));
-    const double used = shared ? goal.characteristic_length * std::abs(turn) : 0.0;
-    collector.add_around(middle + turn, kUsed * goal.position_tolerance - used);
-  }
+  collector.add_tolerated(nearest_angle(goal, start.theta), 1, 0);
+  return collector.sorted();
+}
+
+GoalPlaces wound_tolerated_places(const Model& model, const Goal& goal,
+                                  const FlatState& start, int share) noexcept {
+  if (!winds(goal)) return {};
+  PlaceCollector collector(model, goal, start);
+  collector.add_tolerated(nearest_angle(goal, start.theta), kWindings,
+                          PlaceCollector::first_of(share));
   return collector.sorted();
 }
 

@@ -56,6 +56,12 @@ inline constexpr double kWorthTolerance = 0.9;
 GoalPlaces tolerated_places(const Model& model, const Goal& goal,
                             const FlatState& start) noexcept;
 
+/// These at the whole turns of wound_places, up to three of them at a time: those of
+/// `share`, 0 to kWoundShares - 1, the fewest first.
+inline constexpr int kWoundShares = 8;
+GoalPlaces wound_tolerated_places(const Model& model, const Goal& goal,
+                                  const FlatState& start, int share) noexcept;
+
 /// The roll that is left from `psi` to the goal [rad], in (-pi, pi]; 0 if the goal does
 /// not fix it, or is met within its tolerance (half of a tolerance shared with the
 /// place).

@@ -19,6 +19,16 @@ bool are_alike_at_every_angle(const SearchModel& search) {
   return search.exact_everywhere || search.model->region.is_isotropic();
 }
 
+/// One push to a place off the goal by up to its tolerances.
+std::optional<Move> push_beside(const SearchModel& search, const FlatState& from,
+                                const Goal& goal, Work& work) {
+  for (int share = 0; share < kWoundShares; ++share) {
+    const GoalPlaces beside = wound_tolerated_places(*search.model, goal, from, share);
+    if (const auto move = direct_push(search, from, beside, work)) return move;
+  }
+  return std::nullopt;
+}
+
 std::optional<std::vector<Move>> one_or_two(const SearchModel& search,
                                             const FlatState& from, const Goal& goal,
                                             double bound, const Limits& limits,
@@ -29,9 +39,11 @@ std::optional<std::vector<Move>> one_or_two(const SearchModel& search,
     return std::vector{*move};
   }
   if (!search.exact_everywhere) return std::nullopt;
-  const auto found = search_chains(search, from, wound, bound, limits, work);
-  if (!found) return std::nullopt;
-  return moves_of(search, from, found->chain);
+  if (const auto found = search_chains(search, from, wound, bound, limits, work)) {
+    return moves_of(search, from, found->chain);
+  }
+  if (const auto move = push_beside(search, from, goal, work)) return std::vector{*move};
+  return std::nullopt;
 }
 
 }  // namespace

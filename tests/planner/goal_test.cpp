@@ -97,6 +97,32 @@ TEST(Goal, WoundPlacesAreTheWholeTurnsThatOthersLeaveOut) {
   EXPECT_EQ(wound_places(model, goal, start).count, 0);
 }
 
+TEST(Goal, WoundToleratedPlacesMeetTheGoalAtEachOfTheseTurns) {
+  const Model model = prepare(published_tee(3));
+  const Goal goal = goal_at({0.01, 0.0}, 1.0);
+  const FlatState start{{-0.02, 0.01}, 7.0};
+  const int beside = tolerated_places(model, goal, start).count;
+  ASSERT_GT(beside, 1);
+  const GoalPlaces exact = wound_places(model, goal, start);
+  ASSERT_EQ(exact.count, kWoundShares);
+  for (int share = 0; share < kWoundShares; ++share) {
+    const GoalPlaces places = wound_tolerated_places(model, goal, start, share);
+    EXPECT_EQ(places.count, beside);
+    for (int k = 0; k < places.count; ++k) {
+      const GoalPlace& place = places.places[k];
+      ASSERT_EQ(place.count, exact.places[share].count);
+      for (int j = 0; j < place.count; ++j) {
+        EXPECT_TRUE(reaches(goal, grasp_of({place.p_OF, place.theta[j]}, 0.0)));
+        EXPECT_NEAR(place.theta[j], exact.places[share].theta[j], 0.5);
+      }
+    }
+  }
+  Goal number = goal;
+  number.theta_is = ThetaMeaning::kNumber;
+  EXPECT_EQ(wound_tolerated_places(model, number, start, 0).count, 0);
+  EXPECT_GT(tolerated_places(model, number, start).count, 0);
+}
+
 TEST(Goal, RollNeededIsTheShortWayRound) {
   Goal goal;
   goal.psi = 3.0;

@@ -11,6 +11,7 @@
 #include "planner/goal.h"
 #include "planner/planner.h"
 #include "planner/shorten.h"
+#include "primitives/uncertainty.h"
 #include "problems/published_regrasps.h"
 #include "tests/planner/walled_scene.h"
 #include "tests/support/random.h"
@@ -83,6 +84,29 @@ TEST(WoundSearch, FindsPushesNoDearerThanTheOneThatWindsUp) {
     EXPECT_LT(work.done(), 200'000) << goals;
   }
   EXPECT_GT(found, 10);
+}
+
+/// One push winds the object up to a place beside the goal; none does to the goal itself.
+TEST(WoundSearch, EndsBesideTheGoalWhereThatIsAllThatOnePushMeets) {
+  const Scene scene = random_among_walls(false, RegraspRange::kWide, false, 1, 376);
+  const Model model = prepare(scene);
+  const SearchModel search = prepare_search(model, usual_margin(model));
+  const Goal& goal = *scene.goal;
+  const FlatState from = flat_state(scene.start);
+  PlanOptions options;
+  Work work{.budget = kUnlimited};
+  const Limits limits(options, work);
+  const auto moves =
+      search_wound(search, from, goal, goal_places(model, goal, from), 1.0, limits, work);
+  ASSERT_TRUE(moves);
+  ASSERT_EQ(moves->size(), 1u);
+  EXPECT_GT(std::abs(moves->front().to.theta - from.theta), 2.0 * kTurn - 4.0);
+  EXPECT_TRUE(reaches(goal, grasp_of(moves->front().to, 0.0)));
+  EXPECT_GT(
+      (moves->front().to.p_OF - goal_places(model, goal, from).places[0].p_OF).norm(),
+      1e-6);
+  EXPECT_GE(exact_slack(search, moves->front(), work), -kStickTolerance);
+  EXPECT_LT(work.done(), 50'000);
 }
 
 /// A search for cheaper plans does not end with one that winds the object up.

@@ -23,7 +23,8 @@ bool has_clipped_discs(const Model& model) {
 
 template <class Scalar>
 SpreadPadsOf<Scalar>::SpreadPadsOf(const Model& model, const Vec2& p_OF,
-                                   int angles) noexcept {
+                                   int angles) noexcept
+    : angles_(angles) {
   for (int k = 0; k < angles; ++k) {
     const double theta = 2.0 * std::numbers::pi * k / angles;
     const PlanarGrasp grasp =

@@ -28,6 +28,9 @@ class SpreadPadsOf {
   /// They do not touch the object.
   bool are_lost() const { return points_.is_empty(); }
 
+  /// Share of the friction that the greatest of their points has at one angle.
+  double largest_point() const noexcept { return angles_ * points_.largest(); }
+
   /// Force over F, and moment [m] over F about the finger axis, that overcome them in a
   /// motion of the object in the hand, in O, of any scale.
   PadDrag drag(const Vec2& velocity, double omega) const noexcept {
@@ -42,6 +45,7 @@ class SpreadPadsOf {
 
  private:
   PadColumns<Scalar, kMostAngles * PlanarGrasp::kCapacity> points_;
+  int angles_ = 0;
 };
 
 using SpreadPads = SpreadPadsOf<double>;

@@ -8,6 +8,7 @@
 
 #include "mechanics/pad_law.h"
 #include "planner/chain.h"
+#include "planner/clipped_law.h"
 #include "planner/exact_check.h"
 #include "planner/goal.h"
 #include "planner/refuse.h"
@@ -181,6 +182,30 @@ TEST(Barrier, FeasibleProblemsHaveNone) {
       EXPECT_FALSE(verify_barrier(model, {invented}, nullptr)) << i;
     }
   }
+}
+
+/// Points push discs that the face clips to goals where pushes by points ended.
+void expect_no_barrier_before_points(int problems) {
+  FixtureRange range;
+  range.pushers = FixturePushers::kPoints;
+  range.count = {1.0, 3.0};
+  int clipped = 0;
+  for (int i = 0; i < problems; ++i) {
+    range.object = i % 2 == 0 ? FixtureObject::kConcave : FixtureObject::kBox;
+    const auto problem = random_fixture(range, 12, i);
+    ASSERT_TRUE(problem);
+    const Model model = prepare(problem->scene);
+    if (!has_clipped_law(model)) continue;
+    ++clipped;
+    EXPECT_TRUE(find_barrier(model).empty()) << i;
+  }
+  EXPECT_GT(clipped, problems / 2);
+}
+
+TEST(Barrier, FeasibleProblemsOfPointsHaveNone) { expect_no_barrier_before_points(8); }
+
+TEST(Barrier, FullFeasibleProblemsOfPointsHaveNone) {
+  expect_no_barrier_before_points(150);
 }
 
 /// Over F: a fall that leaves more than this is none that a check may count on.

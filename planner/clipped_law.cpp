@@ -20,8 +20,8 @@ constexpr double kShareOfChange = 0.5;
 constexpr double kPerLength = 0.3;
 
 /// The points at one angle resist otherwise than spread over all by so many times what
-/// the greatest of them takes, near which the object turns. Up to 1.9 was seen in 2
-/// million samples.
+/// the greatest of them takes, near which the object turns. Up to 1.92 was
+/// seen in 3.5 million samples over squares and 196 random objects.
 constexpr double kOfLargestPoint = 2.5;
 
 /// Triangles of motions are halved until their sides are shorter than this, and so many

@@ -80,6 +80,7 @@ class PlaceCollector {
   /// Places off the goal that fixes all by what its tolerances leave, and those that are
   /// not; at such whole turns.
   void add_tolerated(double middle, int windings, int first) {
+    const Vec2 place{*goal_.x, *goal_.y};
     const bool shared = goal_.test == GoalTest::kWeightedSum;
     const double most =
         kUsed * (shared ? goal_.position_tolerance / goal_.characteristic_length
@@ -88,7 +89,6 @@ class PlaceCollector {
       const double turn = most * offset(i, 2.0 / (kTurns - 1));
       const double used = shared ? goal_.characteristic_length * std::abs(turn) : 0.0;
       const double off = kUsed * goal_.position_tolerance - used;
-      const Vec2 place{*goal_.x, *goal_.y};
       add(middle + turn, place, windings, first);
       if (off <= 0.0) continue;
       for (int k = 0; k < kDirections; ++k) {

@@ -49,7 +49,7 @@ inline const auto kProofWords = named(std::array{
     Proof::Kind::kGoalOffObject, Proof::Kind::kStartFalls, Proof::Kind::kGoalFalls,
     Proof::Kind::kNoPusher, Proof::Kind::kNoRoll, Proof::Kind::kHalfSpace,
     Proof::Kind::kGoalBeyondLimits, Proof::Kind::kBarrier, Proof::Kind::kStartBlocked,
-    Proof::Kind::kGoalBlocked});
+    Proof::Kind::kGoalBlocked, Proof::Kind::kTurn});
 
 /// A push as the file has it: pusher and face by name.
 struct WrittenPush {
@@ -166,6 +166,27 @@ void visit_margin(Fields& fields, Margin& margin) {
                      "without it as well. Absent: may help.");
 }
 
+inline const auto kVisitBorder = [](auto& fields, std::vector<Vec2>& border) {
+  fields.points("border", border, Length{3, 2000}, kMetres,
+                "Vertices in O. Borders neither cross nor touch.");
+};
+
+inline const auto kVisitTurnRate = [](auto& fields, TurnRate& rate) {
+  fields.vector("at_start", rate.at_start, {-1e6, 1e6, ""}, kRequired,
+                "There: torque radius times turn, over the way of the finger axis in O.");
+  fields.vector("bend", rate.bend, {-1e9, 1e9, "1/m"}, kRequired,
+                "How it changes with the place: xx, xy, yy.");
+};
+
+inline const auto kVisitTurnBounds = [](auto& fields, TurnBounds& turn) {
+  fields.list("beyond", turn.beyond, Length{0, 200}, kRequired,
+              "Places of the finger axis in O that no push leaves, without the goal, as "
+              "those of `region`; empty: none.",
+              kVisitBorder);
+  fields.group("most", turn.most, kRequired, "No push turns by more.", kVisitTurnRate);
+  fields.group("least", turn.least, kRequired, "No push turns by less.", kVisitTurnRate);
+};
+
 template <typename Fields>
 void visit_proof(Fields& fields, Proof& proof) {
   fields.word("kind", proof.kind, kProofWords, kRequired, "Which argument.");
@@ -174,12 +195,14 @@ void visit_proof(Fields& fields, Proof& proof) {
   fields.vector("direction", proof.direction, {-1.0, 1.0, ""}, kRequired,
                 "Normal of the half-plane that excludes the goal.");
   fields.list("region", proof.region, Length{0, 200}, kOptional,
-              "Of a barrier: places of the finger axis in O that no push leaves, by the "
-              "closed borders between which they are (even-odd rule).",
-              [](auto& f, std::vector<Vec2>& border) {
-                f.points("border", border, Length{3, 2000}, kMetres,
-                         "Vertices in O. Borders neither cross nor touch.");
-              });
+              "Of a barrier or a turn: places of the finger axis in O that no push "
+              "leaves, by the closed borders between which they are (even-odd rule).",
+              kVisitBorder);
+  fields.group(
+      "turn", proof.turn,
+      "Of a turn: bounds on it for ways that stay in `region`, if it has any, and "
+      "out of `beyond`.",
+      kVisitTurnBounds);
   fields.text("text", proof.text, kRequired, "The argument in words.");
 }
 

@@ -11,13 +11,11 @@
 #include <vector>
 
 #include "planner/cheat_field.h"
+#include "planner/free_places.h"
 #include "planner/goal_cover.h"
 #include "planner/half_planes.h"
 #include "planner/local_law.h"
 #include "planner/place_slacks.h"
-#include "planner/ring_kappas.h"
-#include "planner/ring_pads.h"
-#include "planner/steering.h"
 #include "planner/traced_regions.h"
 #include "scene/outline.h"
 
@@ -55,80 +53,13 @@ constexpr int kMostLines = 4;
 constexpr double kGoalSpacing = 2e-4;
 
 /// Lines that follow what sticks, of those that are tried as borders. Where the face
-/// clips the discs so much slack, over F, may be missing.
+/// clips the discs so much slack, over F, may be missing. Tried in order.
 constexpr int kMostTraced = 40;
 constexpr int kMostTracedWhereClipped = 12;
-constexpr double kAllowedIfTraced = 0.01;
+constexpr std::array kAllowedIfTraced = {0.04, 0.02, 0.01};
 
 /// A field with less at the goal [spacings of the grid] shows no barrier.
 constexpr double kLeastValue = 0.5;
-
-/// Over pads of other shapes a contact's pushes count as ended for lack of grip only
-/// where more than this share of it is missing: the check wants to be sure.
-constexpr double kNearlyHeld = 0.05;
-
-/// Half of the directions that are looked at as one where the law says what sticks [rad].
-constexpr double kHalfLooked = 1e-3;
-
-/// Directions in which a contact that the grasp holds at a place may move the finger
-/// axis; so much of the grip may be missing.
-template <class MayMove>
-FreeDirections free_where_held(const Model& model, const Vec2& place, double missing,
-                               const MayMove& may_move) {
-  if (depth_inside(model.pad_face, place) < 0.0) return {};
-  std::vector<int> held;
-  for (int k = 0; k < static_cast<int>(model.contacts.size()); ++k) {
-    const Vec2& g_O = model.contacts[k].g_O;
-    if (holding_slack(model, place, g_O, Margin::none()) >= -missing) held.push_back(k);
-  }
-  if (held.empty()) return {};
-  return FreeDirections::where([&](double angle) {
-    return std::ranges::any_of(held, [&](int k) { return may_move(k, angle); });
-  });
-}
-
-/// What sticks at a place, over soft points and round pads that are whole everywhere.
-class RoundPads {
- public:
-  explicit RoundPads(const Model& model)
-      : model_(model), search_(prepare_search(model, Margin::none())) {}
-
-  FreeDirections operator()(const Vec2& place) const {
-    return free_where_held(model_, place, 0.0, [&](int contact, double angle) {
-      return std::ranges::any_of(search_.contacts, [&](const SearchContact& pushed) {
-        return pushed.contact == contact && sticks(pushed.stick, place, -towards(angle));
-      });
-    });
-  }
-
- private:
-  bool sticks(const StickContact& contact, const Vec2& place, const Vec2& e) const {
-    const bool ring = search_.rings && !contact.is_point;
-    const KappaSet kappas = ring ? search_.rings->kappas(contact, place, e)
-                                 : sticking_kappas(contact, place, e);
-    return !kappas.empty();
-  }
-
-  const Model& model_;
-  const SearchModel search_;
-};
-
-/// What the law lets stick at a place, over pads of other shapes, which deflect the
-/// friction by more than what the field allows for.
-class LawfulPads {
- public:
-  explicit LawfulPads(const Model& model) : model_(model), law_(model) {}
-
-  FreeDirections operator()(const Vec2& place) const {
-    return free_where_held(model_, place, kNearlyHeld, [&](int contact, double angle) {
-      return law_.may_move(contact, {place, place}, {towards(angle), kHalfLooked});
-    });
-  }
-
- private:
-  const Model& model_;
-  const LocalLaw law_;
-};
 
 /// Of some angles of the goal set, whose places are no closer than `spacing`.
 GoalSample sample_of(const Goal& goal, double spacing) {
@@ -232,16 +163,14 @@ Loops barrier_of_whole_pads(const Model& model, const FreeAt& free_at,
 Loops barrier_of_clipped_discs(const Model& model, const CheatField::Stopped& stopped) {
   PlaceSlacks slacks(model);
   const auto free_if = [&](double allowed) {
-    return [&, allowed](const Vec2& place) {
-      if (depth_inside(model.pad_face, place) < 0.0) return FreeDirections();
-      return FreeDirections::above(slacks.at(place), -allowed);
-    };
+    return free_over_clipped_discs(model, slacks, allowed);
   };
   const GoalSample goal = sample_of(*model.scene.goal, kGoalSpacing);
-  Loops traced =
-      barrier_among(model, traced_regions(model, goal, free_if(kAllowedIfTraced),
-                                          kMostTracedWhereClipped, stopped));
-  if (!traced.empty()) return traced;
+  for (const double allowed : kAllowedIfTraced) {
+    Loops traced = barrier_among(model, traced_regions(model, goal, free_if(allowed),
+                                                       kMostTracedWhereClipped, stopped));
+    if (!traced.empty()) return traced;
+  }
   Levels levels(model);
   constexpr std::array kWays = {Judged::kAtBothEnds, Judged::kAllAlong};
   for (const int nodes : kNodesPerSideWhereClipped) {
@@ -282,9 +211,7 @@ Loops find_barrier(const Model& model, const std::function<bool()>& stopped) {
     return has_clipped_law(model) ? barrier_of_clipped_discs(model, or_spent) : Loops{};
   }
   if (!LocalLaw(model).is_known()) return {};
-  return has_round_pads(model)
-             ? barrier_of_whole_pads(model, RoundPads(model), or_spent)
-             : barrier_of_whole_pads(model, LawfulPads(model), or_spent);
+  return barrier_of_whole_pads(model, free_over_whole_pads(model), or_spent);
 }
 
 }  // namespace prehensile

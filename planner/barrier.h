@@ -30,4 +30,13 @@ Loops find_barrier(const Model& model, const std::function<bool()>& stopped = {}
 bool verify_barrier(const Model& model, const Loops& region, std::string* why,
                     std::optional<Vec2>* weak = nullptr);
 
+/// Whether the region has a border that no push crosses outwards, whatever it holds.
+bool is_never_left(const Model& model, const Loops& region, std::string* why = nullptr);
+
+/// Distance of a place from the border of a region, negative outside [m].
+double depth_in_region(const Loops& region, const Vec2& p_OF);
+
+/// Whether every place of a goal set that fixes the place is outside a region.
+bool goal_is_outside(const Loops& region, const Goal& goal);
+
 }  // namespace prehensile

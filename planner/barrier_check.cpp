@@ -88,15 +88,6 @@ bool is_well_formed(const Loops& region, std::string* why) {
   return !region.empty() || refuse(why, "there is no region");
 }
 
-/// Distance of a place from the border of the region, negative outside [m].
-double depth_in_region(const Loops& region, const Vec2& p) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const auto& loop : region) {
-    nearest = std::min(nearest, std::abs(depth_inside(loop, p)));
-  }
-  return is_between(region, p) ? nearest : -nearest;
-}
-
 /// Distance of the farthest pad point from the finger axis [m].
 double reach_of(const PlanarGrasp& grasp) {
   double reach = 0.0;
@@ -119,21 +110,6 @@ bool is_outside(const Loops& region, const Vec2& middle, const Vec2& half_edge,
     if (!is_outside(region, middle + corner, quarter, around, cuts - 1)) return false;
   }
   return true;
-}
-
-/// Whether every place of the goal set is outside the region.
-bool goal_is_outside(const Loops& region, const Goal& goal) {
-  const double tolerance = goal.position_tolerance;
-  const double farthest = Vec2(*goal.x, *goal.y).norm() + std::numbers::sqrt2 * tolerance;
-  return for_all_goal_angles(goal, [&](double theta, double half_step) {
-    const Vec2 middle = goal_place(goal, theta);
-    const double around = half_step * farthest + kRounding;
-    if (goal.test == GoalTest::kWeightedSum) {
-      return depth_in_region(region, middle) < -(tolerance + around);
-    }
-    return is_outside(region, middle, rotated(-theta, Vec2(tolerance, 0.0)), around,
-                      kMostGoalCuts);
-  });
 }
 
 /// The contact's pushes end where the grasp alone does not hold the object in its
@@ -279,7 +255,47 @@ std::vector<Piece> pieces_of(const Loops& region, const Vec2* weak) {
   return pieces;
 }
 
+/// Whether no push crosses the border; `weak` as of verify_barrier.
+bool is_sealed(const BorderLaw& law, const Loops& region, std::string* why,
+               std::optional<Vec2>* weak) {
+  for (const Piece& piece : pieces_of(region, weak && *weak ? &**weak : nullptr)) {
+    if (law.is_sealed(piece, kMostCuts)) continue;
+    if (weak) *weak = piece.middle();
+    return refuse(why, "a push may cross the border of the region");
+  }
+  return true;
+}
+
 }  // namespace
+
+double depth_in_region(const Loops& region, const Vec2& p) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto& loop : region) {
+    nearest = std::min(nearest, std::abs(depth_inside(loop, p)));
+  }
+  return is_between(region, p) ? nearest : -nearest;
+}
+
+bool goal_is_outside(const Loops& region, const Goal& goal) {
+  const double tolerance = goal.position_tolerance;
+  const double farthest = Vec2(*goal.x, *goal.y).norm() + std::numbers::sqrt2 * tolerance;
+  return for_all_goal_angles(goal, [&](double theta, double half_step) {
+    const Vec2 middle = goal_place(goal, theta);
+    const double around = half_step * farthest + kRounding;
+    if (goal.test == GoalTest::kWeightedSum) {
+      return depth_in_region(region, middle) < -(tolerance + around);
+    }
+    return is_outside(region, middle, rotated(-theta, Vec2(tolerance, 0.0)), around,
+                      kMostGoalCuts);
+  });
+}
+
+bool is_never_left(const Model& model, const Loops& region, std::string* why) {
+  const BorderLaw law(model);
+  if (!law.is_known())
+    return refuse(why, "the friction of these pads is not known at every angle");
+  return is_well_formed(region, why) && is_sealed(law, region, why, nullptr);
+}
 
 bool verify_barrier(const Model& model, const Loops& region, std::string* why,
                     std::optional<Vec2>* weak) {
@@ -296,12 +312,7 @@ bool verify_barrier(const Model& model, const Loops& region, std::string* why,
   if (!goal_is_outside(region, goal)) {
     return refuse(why, "a pose of the goal is in the region");
   }
-  for (const Piece& piece : pieces_of(region, weak && *weak ? &**weak : nullptr)) {
-    if (law.is_sealed(piece, kMostCuts)) continue;
-    if (weak) *weak = piece.middle();
-    return refuse(why, "a push may cross the border of the region");
-  }
-  return true;
+  return is_sealed(law, region, why, weak);
 }
 
 }  // namespace prehensile

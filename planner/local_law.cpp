@@ -190,6 +190,13 @@ double least_in(const FrictionBox& box, double share) {
   return squared > 0.0 ? (1.0 - share * sine) / std::sqrt(squared) : INFINITY;
 }
 
+/// Greatest sense kappa in a box.
+double most_in(const FrictionBox& box, double sense) {
+  const double sine = sense > 0.0 ? box.sine_high : -box.sine_low;
+  const double cosine = sine > 0.0 ? box.cosine_low : box.cosine_high;
+  return cosine > 0.0 ? sine / cosine : std::copysign(INFINITY, sine);
+}
+
 /// Nodes of a tree that are still to be looked at: more than twice its depth.
 template <class Entry>
 class Pile {
@@ -220,15 +227,17 @@ bool may_be_met_in(const std::vector<FrictionBox>& tree, const Demands& demands)
   return false;
 }
 
-/// From the cheaper branch on.
+/// The least cost of a box that the demands may be met in, from the cheaper branch on.
+/// `cost(box)` is no more than that of any box within.
+template <class Cost>
 double least_in_tree(const std::vector<FrictionBox>& tree, const Demands& demands,
-                     double share) {
+                     const Cost& cost) {
   struct Branch {
     double cost;
     std::size_t node;
   };
   const auto branch_to = [&](std::size_t node) -> Branch {
-    return {least_in(tree[node], share), node};
+    return {cost(tree[node]), node};
   };
   double least = INFINITY;
   Pile<Branch> open;
@@ -282,7 +291,16 @@ double LocalLaw::least_travel(int contact, std::span<const Vec2> corners,
                               double share) const noexcept {
   const PushContact& pushed = model_.contacts[contact];
   if (!is_known() || !is_in_cone(pushed, directions)) return INFINITY;
-  return least_in_tree(tree_, {model_, pushed, weightless_, corners, directions}, share);
+  return least_in_tree(tree_, {model_, pushed, weightless_, corners, directions},
+                       [share](const FrictionBox& box) { return least_in(box, share); });
+}
+
+double LocalLaw::most_turn(int contact, std::span<const Vec2> corners,
+                           const DirectionSpan& directions, double sense) const noexcept {
+  const PushContact& pushed = model_.contacts[contact];
+  if (!is_known() || !is_in_cone(pushed, directions)) return -INFINITY;
+  return -least_in_tree(tree_, {model_, pushed, weightless_, corners, directions},
+                        [sense](const FrictionBox& box) { return -most_in(box, sense); });
 }
 
 }  // namespace prehensile

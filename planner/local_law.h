@@ -51,6 +51,11 @@ class LocalLaw {
   double least_travel(int contact, std::span<const Vec2> corners,
                       const DirectionSpan& directions, double share) const noexcept;
 
+  /// The greatest sense c dtheta / |dp| of such motions; -infinity if there are none,
+  /// infinity if the object may turn about the finger axis. `sense` is 1 or -1. No heap.
+  double most_turn(int contact, std::span<const Vec2> corners,
+                   const DirectionSpan& directions, double sense) const noexcept;
+
  private:
   LocalLaw(const Model& model, bool weightless, const std::vector<FrictionBox>& boxes);
 

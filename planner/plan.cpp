@@ -53,6 +53,8 @@ std::string_view name(Proof::Kind kind) {
       return "start blocked";
     case Proof::Kind::kGoalBlocked:
       return "goal blocked";
+    case Proof::Kind::kTurn:
+      return "turn";
   }
   return "unknown";
 }

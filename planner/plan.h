@@ -42,6 +42,29 @@ enum class PlanStatus {
 };
 std::string_view name(PlanStatus status);
 
+/// A bound on c dtheta along dp_OF that depends on the place: the gradient of a quadratic
+/// function of p_OF.
+struct TurnRate {
+  Vec2 at_start = Vec2::Zero();
+  Vec3 bend = Vec3::Zero();  ///< [1/m] how it changes with the place: xx, xy, yy
+
+  Vec2 at(const Vec2& from_start) const {
+    return at_start + Vec2(bend[0] * from_start.x() + bend[1] * from_start.y(),
+                           bend[1] * from_start.x() + bend[2] * from_start.y());
+  }
+
+  /// Over a way from the start [m].
+  double along(const Vec2& from_start) const {
+    return from_start.dot(at(0.5 * from_start));
+  }
+};
+
+/// By how much the object turns on ways of the finger axis that do not get to `beyond`.
+struct TurnBounds {
+  Loops beyond;          ///< [m] of places p_OF; empty if none is in it
+  TurnRate most, least;  ///< least . dp_OF <= c dtheta <= most . dp_OF
+};
+
 /// Why no plan exists. Each kind is checked by `verify` from the model alone.
 struct Proof {
   enum class Kind {
@@ -57,11 +80,14 @@ struct Proof {
     kBarrier,  ///< no push moves p_OF out of a region that excludes the goal; region = it
     kStartBlocked,  ///< every push that begins at the start meets obstacles there
     kGoalBlocked,   ///< every push that ends at the goal meets obstacles there
+    kTurn,  ///< no push moves p_OF out of `region`, nor back out of turn->beyond, which
+            ///< excludes the goal; in between the bounds on the turn exclude its angle
   };
   Kind kind = Kind::kNone;
   PlanarTwist twist = PlanarTwist::Zero();
   Vec2 direction = Vec2::Zero();
-  Loops region;  ///< [m] of places p_OF
+  Loops region;  ///< [m] of places p_OF; of a turn: empty if all places are in it
+  std::optional<TurnBounds> turn;
   std::string text;
 };
 std::string_view name(Proof::Kind kind);

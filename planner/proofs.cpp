@@ -8,6 +8,7 @@
 #include "planner/goal_cover.h"
 #include "planner/planner.h"
 #include "planner/refuse.h"
+#include "planner/turn_proof.h"
 #include "scene/pad_quadrature.h"
 
 namespace prehensile {
@@ -251,6 +252,8 @@ bool verify(const Model& model, const Proof& proof, std::string* why) {
     case Proof::Kind::kGoalBlocked:
       return is_blocked_at_goal(model) ||
              refuse(why, "a push may end at a pose of the goal without a collision");
+    case Proof::Kind::kTurn:
+      return verify_turn(model, proof, why);
     case Proof::Kind::kNone:
       break;
   }

@@ -5,6 +5,7 @@
 #include "mechanics/pad_law.h"
 #include "planner/barrier.h"
 #include "planner/limits.h"
+#include "planner/turn_proof.h"
 
 namespace prehensile {
 namespace {
@@ -36,6 +37,10 @@ std::string sentence(Proof::Kind kind) {
     case Proof::Kind::kGoalBlocked:
       return "at the goal obstacles are in the way of every push: of the hand or the "
              "object while it pushes there or retreats";
+    case Proof::Kind::kTurn:
+      return "on all ways from the start to the goal that sticking pushes allow the "
+             "object "
+             "turns too little, or too much, for the goal";
     case Proof::Kind::kNone:
       break;
   }
@@ -112,7 +117,9 @@ Proof find_proof(const Model& model) {
 Proof find_barrier_proof(const Model& model, const std::function<bool()>& stopped) {
   Proof proof = make_proof(Proof::Kind::kBarrier);
   proof.region = find_barrier(model, stopped);
-  return proof.region.empty() ? Proof{} : proof;
+  if (!proof.region.empty()) return proof;
+  proof = make_proof(Proof::Kind::kTurn);
+  return find_turn(model, proof, stopped) ? proof : Proof{};
 }
 
 Proof look_for_barrier(const Model& model, const PlanOptions& options, const Work& work) {

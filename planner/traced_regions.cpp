@@ -223,6 +223,12 @@ std::vector<Vec2> places_to_begin(const Vec2& start, const GoalSample& goal) {
   return places;
 }
 
+Loops region_beside(const Model& model, const Vec2& place, const FreeAt& free_at,
+                    const Steer& steer) {
+  return Tracer(model).region(place, steer,
+                              [&](const Vec2& p) { return headings_beside(free_at(p)); });
+}
+
 }  // namespace
 
 std::vector<Loops> traced_regions(const Model& model, const GoalSample& goal,
@@ -250,6 +256,18 @@ std::vector<Loops> traced_regions(const Model& model, const GoalSample& goal,
     }
   }
   return regions;
+}
+
+Loops region_ahead(const Model& model, const Vec2& apex, const FreeAt& free_at,
+                   double aside) {
+  return region_beside(model, apex, free_at,
+                       {.straight = false, .on = aside, .back = 1.0 - aside});
+}
+
+Loops region_not_behind(const Model& model, const Vec2& apex, const FreeAt& free_at,
+                        double aside) {
+  return region_beside(model, apex, free_at,
+                       {.straight = false, .on = 1.0 - aside, .back = aside});
 }
 
 }  // namespace prehensile

@@ -114,6 +114,42 @@ TEST(PlanFile, RandomPlansReturnUnchanged) {
   EXPECT_GT(pushes, 100);
 }
 
+TEST(PlanFile, ProofsReturnUnchanged) {
+  Random random(4);
+  const auto number = [&] { return random.in(-1.0, 1.0) / 3.0; };
+  const auto loops = [&](int count) {
+    Loops triangles;
+    for (int i = 0; i < count; ++i) {
+      triangles.emplace_back();
+      for (int k = 0; k < 3; ++k) triangles.back().emplace_back(number(), number());
+    }
+    return triangles;
+  };
+  const auto rate = [&] {
+    return TurnRate{{number(), number()}, {number(), number(), number()}};
+  };
+  for (int count = 0; count < 3; ++count) {
+    const SceneFile scene = parse_scene(scene_to_yaml(random_scene(random)), "random");
+    Plan plan;
+    plan.status = PlanStatus::kInfeasible;
+    plan.proof = {.kind = Proof::Kind::kTurn,
+                  .region = loops(count),
+                  .turn = TurnBounds{loops(2 - count), rate(), rate()},
+                  .text = "no way"};
+    const std::string text = plan_to_json({scene.scene, scene.digest, plan});
+    const Proof read = parse_plan(text, "random").plan.proof;
+    EXPECT_EQ(read.kind, plan.proof.kind);
+    EXPECT_EQ(read.region, plan.proof.region);
+    ASSERT_TRUE(read.turn);
+    EXPECT_EQ(read.turn->beyond, plan.proof.turn->beyond);
+    for (const auto side : {&TurnBounds::most, &TurnBounds::least}) {
+      EXPECT_EQ(((*read.turn).*side).at_start, ((*plan.proof.turn).*side).at_start);
+      EXPECT_EQ(((*read.turn).*side).bend, ((*plan.proof.turn).*side).bend);
+    }
+    EXPECT_EQ(plan_to_json(parse_plan(text, "random")), text);
+  }
+}
+
 TEST(PlanFile, IsSelfContained) {
   Random random(4);
   Scene scene = random_scene(random);

@@ -43,7 +43,7 @@ std::array<Vec2, 4> corners_around(const Vec2& p, Random& random) {
 }
 
 struct Tally {
-  int sticking = 0, denied_nearby = 0, sharp = 0;
+  int sticking = 0, denied_nearby = 0, sharp = 0, bounded = 0;
 };
 
 void check_instant(const Model& model, const LocalLaw& law, Random& random,
@@ -68,8 +68,14 @@ void check_instant(const Model& model, const LocalLaw& law, Random& random,
   const std::array corners = corners_around(p_OF, random);
   const double least = law.least_travel(j, corners, around_direction(-e, random), share);
   EXPECT_LE(least, travel * (1.0 + 1e-9)) << kappa;
+  const double sense = random.chance(0.5) ? 1.0 : -1.0;
+  const double most = law.most_turn(j, corners, around_direction(-e, random), sense);
+  EXPECT_GE(most, sense * kappa - 1e-9 * (1.0 + std::abs(kappa)));
   const std::array here = {p_OF};
   if (law.least_travel(j, here, {-e, 0.0}, share) > 0.95 * travel) ++tally.sharp;
+  const double range =
+      law.most_turn(j, here, {-e, 0.0}, 1.0) + law.most_turn(j, here, {-e, 0.0}, -1.0);
+  if (range < 2.0 * (1.0 + std::abs(kappa))) ++tally.bounded;
   const DirectionSpan beside{rotated(random.in(-1.0, 1.0), -e), 0.01};
   if (!law.may_move(j, {p_OF, p_OF}, beside)) ++tally.denied_nearby;
 }
@@ -89,6 +95,7 @@ void check_instants(int scenes, int instants, std::uint64_t seed,
   EXPECT_GT(tally.sticking, scenes * instants / 20);
   EXPECT_GT(tally.denied_nearby, tally.sticking / one_of);
   EXPECT_GT(tally.sharp, tally.sticking / 50);
+  EXPECT_GT(tally.bounded, tally.sticking / 100);
 }
 
 TEST(LocalLaw, DeniesNoInstantThatSticks) { check_instants(60, 2000, 1); }

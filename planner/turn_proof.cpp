@@ -233,8 +233,9 @@ class Bounds {
     }
     std::ranges::sort(broken);
     broken.resize(std::min(broken.size(), kMostAdded));
-    std::vector<std::size_t> most;
-    for (const auto& [left, i] : broken) most.push_back(i);
+    std::vector<std::size_t> most(broken.size());
+    std::ranges::transform(broken, most.begin(),
+                           [](const auto& one) { return one.second; });
     return most;
   }
 
@@ -252,7 +253,9 @@ class Bounds {
       }
       return x.back();
     };
-    for (const std::size_t i : some) program.constraint_lower.push_back(rows.least[i]);
+    program.constraint_lower.resize(some.size());
+    std::ranges::transform(some, program.constraint_lower.begin(),
+                           [&](std::size_t i) { return rows.least[i]; });
     program.constraint_upper.assign(some.size(), kUnbounded);
     program.constraints = [&](std::span<const double> x, std::span<double> g) {
       for (std::size_t k = 0; k < some.size(); ++k) g[k] = rows.value(some[k], x);

@@ -19,11 +19,6 @@ using Motion = Eigen::Vector3d;
 constexpr double kShareOfChange = 0.5;
 constexpr double kPerLength = 0.3;
 
-/// The points at one angle resist otherwise than spread over all by so many times what
-/// the greatest of them takes, near which the object turns. Up to 1.92 was
-/// seen in 3.5 million samples over squares and 196 random objects.
-constexpr double kOfLargestPoint = 2.5;
-
 /// Triangles of motions are halved until their sides are shorter than this, and so many
 /// are looked at, at most.
 constexpr double kLeastSide = 0.003;
@@ -81,8 +76,7 @@ class Crossing {
       : contact_(contact),
         a_(a),
         b_(b),
-        widening_(widening_between(a.pads, b.pads, {a.p_OF, b.p_OF}, a.c) +
-                  (contact.is_point ? widening_of_points(a.pads, b.pads) : 0.0)) {}
+        widening_(widening_between(a.pads, b.pads, {a.p_OF, b.p_OF}, a.c)) {}
 
   bool may_be(const Triangle& corners) {
     if (++looked_at_ > kMostTriangles) return true;
@@ -218,10 +212,6 @@ double widening_between(const SpreadPads& at_a, const SpreadPads& at_b,
   }
   const double length = (line.b - line.a).norm() / c;
   return std::min(kShareOfChange * change, kPerLength * length);
-}
-
-double widening_of_points(const SpreadPads& at_a, const SpreadPads& at_b) {
-  return kOfLargestPoint * std::max(at_a.largest_point(), at_b.largest_point());
 }
 
 double advance_at(const Vec2& end, const PushContact& contact, const Vec2& p_OF, double c,

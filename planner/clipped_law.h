@@ -6,8 +6,9 @@
 /// P is a convex function of the motion xi. So for any motion eta, any t > 0 and the
 /// friction w of any motion, w(xi).eta <= (P(xi + t eta) - P(xi)) / t and P(xi) >= w.xi:
 /// over a triangle of motions the corners bound what an inequality of a sticking instant
-/// can be. Places between two that are looked at count by widening, and so does, for a
-/// pusher that is a point, that the object turns as the points do at its own angle.
+/// can be. Places between two that are looked at count by widening. A push by a point
+/// sticks with these too (exact_check.h), as the points at the object's own angle turn
+/// it.
 #pragma once
 
 #include <array>
@@ -83,10 +84,6 @@ class StickDemands {
 /// of a sticking instant may leave at a place between them, over F. Measured, not proved.
 double widening_between(const SpreadPads& at_a, const SpreadPads& at_b,
                         const PlaceSpan& line, double c);
-
-/// So much more than with points spread over all angles an inequality of a sticking
-/// instant may leave with the points at one angle, over F. Measured, not proved.
-double widening_of_points(const SpreadPads& at_a, const SpreadPads& at_b);
 
 /// Rate at which the pusher advances at an end of its face, for a motion (velocity of the
 /// object at the finger axis, c times its rate of turn).

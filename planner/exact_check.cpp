@@ -67,6 +67,21 @@ double slack_at(const Model& model, const LinearPush& push, const Instant& at,
       .slack;
 }
 
+/// What round pads, spread over all angles, leave at an instant of a push by a point: a
+/// disc pulls nowhere aside as the points that stand for it do.
+double slack_of_disc(const Model& model, const PushContact& contact, const Instant& at) {
+  constexpr double kInstant = 1e-9;  // share of the motion
+  const Vec2 p_OF = finger_in_object(at.X_HO);
+  if (has_ring_pads(model)) {
+    const double v = at.velocity.norm();
+    const Vec2 e = v > 0.0 ? Vec2(at.velocity / v) : contact.n;
+    return ring_slack(model, contact, p_OF, e, kInstant * v, kInstant * at.omega);
+  }
+  return has_clipped_discs(model)
+             ? spread_slack(model, contact, p_OF, at.velocity, at.omega)
+             : std::numeric_limits<double>::infinity();
+}
+
 /// The object turns about a point as the pads let it: looked at along the way that it
 /// takes, moving as it does there.
 double slack_by_point(const Model& model, const Grasp& start, const LinearPush& push,
@@ -91,7 +106,8 @@ double slack_by_point(const Model& model, const Grasp& start, const LinearPush& 
     if (instant.status != InstantStatus::kMoves) return -kInfinity;
     at.velocity = rotated(-at.X_HO.theta, instant.V_HO.head<2>());
     at.omega = instant.V_HO[2];
-    slack = std::min(slack, slack_at(model, push, at, margin));
+    slack = std::min(
+        {slack, slack_at(model, push, at, margin), slack_of_disc(model, contact, at)});
   }
   return slack;
 }

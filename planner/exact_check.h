@@ -15,8 +15,9 @@ namespace prehensile {
 int places_along(double travel, double turn) noexcept;
 
 /// Least slack over the margin box along a push that starts at this grasp, by the real
-/// pad, in the pad plane, at places along the way that the object takes. Infinity for a
-/// roll, which has no margin box.
+/// pad, in the pad plane, at places along the way that the object takes; of discs without
+/// a margin also as they are when spread over all angles. Infinity for a roll, which has
+/// no margin box.
 double push_slack(const Model& model, const Grasp& start, const Push& push,
                   const Margin& margin);
 

@@ -31,9 +31,6 @@ class PadColumns {
     }
   }
 
-  /// The greatest bound of a point over the total; 0 without points.
-  double largest() const noexcept { return is_empty() ? 0.0 : share_.maxCoeff(); }
-
   /// Force over the total, and moment about the finger axis over that and the unit, that
   /// overcome them in a motion of the object in the hand, in O, of any scale: `omega` is
   /// the rate of turn times the unit.

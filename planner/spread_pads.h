@@ -28,9 +28,6 @@ class SpreadPadsOf {
   /// They do not touch the object.
   bool are_lost() const { return points_.is_empty(); }
 
-  /// Share of the friction that the greatest of their points has at one angle.
-  double largest_point() const noexcept { return angles_ * points_.largest(); }
-
   /// Force over F, and moment [m] over F about the finger axis, that overcome them in a
   /// motion of the object in the hand, in O, of any scale.
   PadDrag drag(const Vec2& velocity, double omega) const noexcept {

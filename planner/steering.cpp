@@ -289,9 +289,7 @@ double slack_of_spread_pads(const SearchModel& search, const Move& move, int par
   if (has_ring_pads(model)) {
     return ring_slack(model, contact, move.from.p_OF, e, motion.travel(), motion.omega);
   }
-  if (!has_clipped_discs(model) || contact.is_point) {
-    return std::numeric_limits<double>::infinity();
-  }
+  if (!has_clipped_discs(model)) return std::numeric_limits<double>::infinity();
   int clipped = 0;
   const double slack = spread_slack_along(model, contact, move.from.p_OF, e,
                                           motion.travel(), motion.omega, parts, &clipped);

@@ -16,15 +16,18 @@ namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-/// Squares that the object is covered with at first, along its longer side; how often
-/// each is cut into four, and how many are looked at, at most.
+/// Squares that the object is covered with at first, along its longer side, and how often
+/// each is cut into four.
 constexpr int kSquaresPerSide = 16;
 constexpr int kMostCuts = 6;
-constexpr int kMostSquares = 20'000;
 
 /// Ranges of directions at first, and how often each is halved.
 constexpr int kRanges = 8;
 constexpr int kMostHalvings = 6;
+
+/// What a check may take: questions to the laws, and squares of the goal.
+constexpr int kMostQuestions = 2'000'000;
+constexpr int kMostGoalSquares = 200'000;
 
 /// How often the square of the goal's places is cut into four.
 constexpr int kMostGoalCuts = 6;
@@ -92,7 +95,6 @@ class TurnLaw {
 
  private:
   bool hold_in(const Square& square, int cuts) {
-    if (++looked_at_ > kMostSquares) return false;
     if (is_beside(square)) return true;
     if (is_whole(square) && no_contact_breaks_them(square.corners())) return true;
     if (cuts == 0) return false;
@@ -112,7 +114,7 @@ class TurnLaw {
                           square.reach();
   }
 
-  bool no_contact_breaks_them(const std::array<Vec2, 4>& corners) const {
+  bool no_contact_breaks_them(const std::array<Vec2, 4>& corners) {
     for (int k = 0; k < static_cast<int>(model_.contacts.size()); ++k) {
       for (int i = 0; i < kRanges; ++i) {
         const double half = 0.5 * kTurn / kRanges;
@@ -124,7 +126,8 @@ class TurnLaw {
 
   /// For one contact, and directions whose angle is within half_angle of `angle`.
   bool hold_for(int contact, const std::array<Vec2, 4>& corners, double angle,
-                double half_angle, int halvings) const {
+                double half_angle, int halvings) {
+    if (++asked_ > kMostQuestions) return false;
     const DirectionSpan directions{rotated(angle, Vec2(1.0, 0.0)), half_angle};
     const auto is_within = [&](const TurnRate& bound, double sense) {
       const double most = law_.most_turn(contact, corners, directions, sense);
@@ -147,16 +150,23 @@ class TurnLaw {
   Vec2 start_;
   bool clips_;
   LocalLaw law_;
-  int looked_at_ = 0;
+  int asked_ = 0;
 };
 
 /// Places of the goal at some angle, as squares about its own in the hand.
 class GoalAngle {
  public:
-  GoalAngle(const Model& model, const Proof& proof, double theta, double half_step)
-      : model_(model), proof_(proof), theta_(theta), half_step_(half_step) {}
+  /// `looked_at` counts the squares.
+  GoalAngle(const Model& model, const Proof& proof, double theta, double half_step,
+            int& looked_at)
+      : model_(model),
+        proof_(proof),
+        theta_(theta),
+        half_step_(half_step),
+        looked_at_(looked_at) {}
 
-  bool is_excluded(const Square& square, int cuts) const {
+  bool is_excluded(const Square& square, int cuts) {
+    if (++looked_at_ > kMostGoalSquares) return false;
     const Goal& goal = *model_.scene.goal;
     const double around =
         square.reach() + half_step_ * Vec2(*goal.x, *goal.y).norm() + kRounding;
@@ -193,6 +203,7 @@ class GoalAngle {
   const Model& model_;
   const Proof& proof_;
   double theta_, half_step_;
+  int& looked_at_;
 };
 
 }  // namespace
@@ -200,8 +211,9 @@ class GoalAngle {
 bool turn_excludes_goal(const Model& model, const Proof& proof) {
   const Goal& goal = *model.scene.goal;
   if (!goal.x || !goal.y || !goal.theta) return false;
+  int looked_at = 0;
   return for_all_goal_angles(goal, [&](double theta, double half_step) {
-    const GoalAngle angle(model, proof, theta, half_step);
+    GoalAngle angle(model, proof, theta, half_step, looked_at);
     return angle.is_excluded({Vec2::Zero(), goal.position_tolerance}, kMostGoalCuts);
   });
 }
@@ -222,9 +234,6 @@ bool verify_turn(const Model& model, const Proof& proof, std::string* why) {
   if (!law.is_known()) {
     return refuse(why, "the friction of these pads is not known at every angle");
   }
-  if (!turn_excludes_goal(model, proof)) {
-    return refuse(why, "the bounds on the turn allow a pose of the goal");
-  }
   if (!proof.region.empty()) {
     if (!is_never_left(model, proof.region, why)) return false;
     const Vec2 start = finger_in_object(model.scene.start.X_HO);
@@ -237,6 +246,9 @@ bool verify_turn(const Model& model, const Proof& proof, std::string* why) {
     if (!goal_is_outside(proof.turn->beyond, goal)) {
       return refuse(why, "a pose of the goal is in the region beyond");
     }
+  }
+  if (!turn_excludes_goal(model, proof)) {
+    return refuse(why, "the bounds on the turn allow a pose of the goal");
   }
   return law.holds() || refuse(why, "a push may turn the object by more, or by less");
 }

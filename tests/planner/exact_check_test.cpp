@@ -1,15 +1,48 @@
 #include "planner/exact_check.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "mechanics/sticking.h"
+#include "planner/ring_pads.h"
+#include "planner/spread_pads.h"
 #include "problems/random_pushes.h"
 
 namespace prehensile {
 namespace {
 
+/// What a disc, whose friction is the same at every angle, leaves along the way on which
+/// an object turns about a point, as differences of its poses tell; infinity of pads that
+/// are none.
+double slack_of_disc(const Model& model, const Grasp& start, const Push& push) {
+  double least = std::numeric_limits<double>::infinity();
+  if (!has_ring_pads(model) && !has_clipped_discs(model)) return least;
+  std::vector<Sample> trace;
+  apply(model, start, as_linear(push), {.max_step = 1e-3}, &trace);
+  for (std::size_t i = 1; i + 1 < trace.size(); ++i) {  // the last one is cut short
+    const PlanarPose& from = trace[i - 1].grasp.X_HO;
+    const PlanarPose& to = trace[i].grasp.X_HO;
+    const Vec2 p_OF = finger_in_object(from);
+    const Vec2 moved = p_OF - finger_in_object(to);
+    const double turned = to.theta - from.theta;
+    if (moved.norm() + model.c * std::abs(turned) < 1e-9) continue;
+    const double slack =
+        has_ring_pads(model)
+            ? ring_slack(model, model.contacts[0], p_OF, moved.normalized(), moved.norm(),
+                         turned)
+            : spread_slack(model, model.contacts[0], p_OF, moved, turned);
+    least = std::min(least, slack);
+  }
+  return least;
+}
+
 /// Along the way of an object that turns about a point, the slack says what the
-/// transition function found by following its contact modes: whether the point slips.
+/// transition function found by following its contact modes, whether the point slips, and
+/// whether a disc would.
 TEST(ExactCheck, SlackOfAPointTellsWhetherItSlips) {
   int sticks = 0;
   int slips = 0;
@@ -30,12 +63,38 @@ TEST(ExactCheck, SlackOfAPointTellsWhetherItSlips) {
       ++slips;
       EXPECT_LT(slack, 5e-3) << i;
     } else if (done.slipped < 1e-12) {
+      if (slack_of_disc(model, c.scene.start, c.push) < 5e-3) continue;
       ++sticks;
       EXPECT_GE(slack, -1e-9) << i;
     }
   }
   EXPECT_GE(sticks, 50);
   EXPECT_GE(slips, 50);
+}
+
+/// A push by a point that the points which stand for a disc alone make stick is none.
+TEST(ExactCheck, ADiscHasToStickToAPointAsWell) {
+  int sticks = 0;
+  int discs_slip = 0;
+  for (std::uint64_t i = 0; i < 1500; ++i) {
+    RandomPush c = random_push(8, i);
+    c.scene.pushers[0].feature = PointFeature{};
+    c.scene.g_W.setZero();
+    const Model model = prepare(c.scene);
+    const Transition done = apply(model, c.scene.start, c.push);
+    if (!done.completed() || done.slipped > 1e-12) continue;
+    const double of_disc = slack_of_disc(model, c.scene.start, c.push);
+    const double slack = push_slack(model, c.scene.start, c.push, Margin::none());
+    if (of_disc < -5e-3) {
+      ++discs_slip;
+      EXPECT_LT(slack, 0.0) << i;
+    } else if (of_disc > 5e-3) {
+      ++sticks;
+      EXPECT_GE(slack, -1e-9) << i;
+    }
+  }
+  EXPECT_GE(sticks, 50);
+  EXPECT_GE(discs_slip, 1);
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include "optimisation/nonlinear_program.h"
-#include "planner/barrier.h"
 #include "planner/planner.h"
 #include "problems/random_fixtures.h"
 #include "scene/outline.h"
@@ -191,7 +190,7 @@ void attack(int problems, int instants, int least_proofs) {
       if (is_between(proof.turn->beyond, p_OF)) continue;
       const int j = random.below(static_cast<int>(model.contacts.size()));
       const PushContact& contact = model.contacts[j];
-      const Vec2 e = rotated(random.in(-kPi, kPi), Vec2(1.0, 0.0));
+      const Vec2 e = random.direction();
       const double kappa = random_kappa(random);
       if (advance_of(contact, p_OF, e, kappa / model.c) < 0.0) continue;
       const PlanarPose X_HO = pose_from_finger(p_OF, random.in(-kPi, kPi));

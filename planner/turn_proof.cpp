@@ -310,6 +310,42 @@ std::vector<Vec2> ways_to_goal(const Model& model, const Proof& proof) {
   return ways;
 }
 
+/// Completes the regions of a proof; false if neither is found.
+bool enclose(const Model& model, Proof& proof) {
+  const bool clips = has_clipped_discs(model);
+  std::optional<PlaceSlacks> slacks;
+  if (clips) slacks.emplace(model);
+  const FreeAt free_at = clips ? free_over_clipped_discs(model, *slacks, kAllowed)
+                               : free_over_whole_pads(model);
+  proof.turn.emplace();
+  proof.region = region_of_start(model, free_at);
+  proof.turn->beyond = region_beyond_goal(model, free_at);
+  return !proof.region.empty() || !proof.turn->beyond.empty();
+}
+
+/// Turns from the start that the bounds are to stay between [rad].
+struct Turns {
+  double before, next;
+};
+
+/// Those to the goal's angle next to what a way turns at most [rad].
+Turns turns_around(const Model& model, double most) {
+  constexpr double kWhole = 2.0 * kHalfTurn;
+  const Goal& goal = *model.scene.goal;
+  const double wanted = *goal.theta - model.scene.start.X_HO.theta;
+  if (goal.theta_is == ThetaMeaning::kNumber) {
+    return wanted > most ? Turns{-kAnyTurn, wanted} : Turns{wanted, kAnyTurn};
+  }
+  const double next = wanted + kWhole * std::ceil((most - wanted) / kWhole);
+  return {next - kWhole, next};
+}
+
+double longest(const std::vector<Vec2>& ways) {
+  double length = 0.0;
+  for (const Vec2& way : ways) length = std::max(length, way.norm());
+  return length;
+}
+
 }  // namespace
 
 bool find_turn(const Model& model, Proof& proof, const std::function<bool()>& stopped) {
@@ -318,43 +354,22 @@ bool find_turn(const Model& model, Proof& proof, const std::function<bool()>& st
   const bool clips = has_clipped_discs(model);
   const LocalLaw law = clips ? LocalLaw::of_whole_discs(model) : LocalLaw(model);
   if (!law.is_known() || (clips && !has_clipped_law(model))) return false;
-  std::optional<PlaceSlacks> slacks;
-  if (clips) slacks.emplace(model);
-  const FreeAt free_at = clips ? free_over_clipped_discs(model, *slacks, kAllowed)
-                               : free_over_whole_pads(model);
-  proof.turn.emplace();
-  proof.region = region_of_start(model, free_at);
-  proof.turn->beyond = region_beyond_goal(model, free_at);
-  if (proof.region.empty() && proof.turn->beyond.empty()) return false;
-  if (stopped && stopped()) return false;
+  if (!enclose(model, proof) || (stopped && stopped())) return false;
   const std::vector<Vec2> places = places_between(model, proof);
   const std::vector<Vec2> ways = ways_to_goal(model, proof);
-  double length = 0.0;
-  for (const Vec2& way : ways) length = std::max(length, way.norm());
+  const double length = longest(ways);
   if (length == 0.0) return false;
   const std::vector<Seen> most = seen_turns(model, law, places, 1.0);
   const std::vector<Seen> least = seen_turns(model, law, places, -1.0);
   const Bounds bounds_above(most, ways, length, stopped);
   const Bounds bounds_below(least, ways, length, stopped);
   const auto high = bounds_above.least_along_ways();
-  const auto low = bounds_below.least_along_ways();
-  if (!high || !low) return false;
-  // The angles of the goal next to what the first bounds leave.
-  const double wanted = *goal.theta - model.scene.start.X_HO.theta;
-  double next = wanted;
-  double before = wanted;
-  if (goal.theta_is == ThetaMeaning::kAngle) {
-    next += 2.0 * kHalfTurn * std::ceil((*high / model.c - wanted) / (2.0 * kHalfTurn));
-    before = next - 2.0 * kHalfTurn;
-  } else if (wanted * model.c > *high) {
-    before = -kAnyTurn;
-  } else {
-    next = kAnyTurn;
-  }
+  if (!high) return false;
+  const Turns turns = turns_around(model, *high / model.c);
   for (const double left : kLeft) {
     const double aside = angle_tolerance(goal) + left;
-    const auto above = bounds_above.surest(model.c * (next - aside));
-    const auto below = bounds_below.surest(-model.c * (before + aside));
+    const auto above = bounds_above.surest(model.c * (turns.next - aside));
+    const auto below = bounds_below.surest(-model.c * (turns.before + aside));
     if (!above || !below) continue;
     proof.turn->most = *above;
     proof.turn->least = {-below->at_start, -below->bend};

@@ -4,8 +4,9 @@
 /// What sticks has, at each place of the finger axis, a rate of turn c dtheta / |dp_OF|
 /// for each direction, with bounds that hold at every angle (local_law.h). On a way that
 /// is known to stay in some region of places, two functions of the place, whose gradients
-/// bound the rate, bound its turn from both sides. The region is what two others leave: one that holds the start
-/// and is never left, and one, also never left, that does not hold the goal.
+/// bound the rate, bound its turn from both sides. The region is what two others leave:
+/// one that holds the start and is never left, and one, also never left, that does not
+/// hold the goal.
 #pragma once
 
 #include <functional>
@@ -15,8 +16,8 @@
 namespace prehensile {
 
 /// Completes a proof of kind kTurn; false if none is found, or `stopped` says so in
-/// between, or Ipopt, which finds the functions, is not built. Only for pads with a law at every place of the region, and goals that fix the
-/// whole pose. The work is limited.
+/// between, or Ipopt, which finds the functions, is not built. Only for pads with a law
+/// at every place of the region, and goals that fix the whole pose. The work is limited.
 bool find_turn(const Model& model, Proof& proof, const std::function<bool()>& stopped);
 
 /// Whether no pose of the goal set with a place between the regions has an angle that the

@@ -57,18 +57,18 @@ struct Instant {
   double travelled = 0.0;        ///< [m] by the finger axis in O since the push began
 };
 
-double slack_at(const Model& model, const LinearPush& push, const Instant& at,
-                const Margin& margin) {
-  const PushContact& contact = model.contacts[static_cast<std::size_t>(push.contact)];
+double slack_at(const Model& model, const PushContact& contact, double place,
+                const Instant& at, const Margin& margin) {
   const double v = at.velocity.norm();
   const Vec2 e = v > 0.0 ? Vec2(at.velocity / v) : contact.n;
-  return exact_stick_test(model, contact, push.place, at.X_HO, e, v, at.omega, margin,
+  return exact_stick_test(model, contact, place, at.X_HO, e, v, at.omega, margin,
                           at.travelled)
       .slack;
 }
 
 /// What round pads, spread over all angles, leave at an instant of a push by a point: a
-/// disc pulls nowhere aside as the points that stand for it do.
+/// disc pulls nowhere aside as the points that stand for it do. With gravity as while the
+/// face lies flush, so that the laws of barrier.h and turn_proof.h hold for the push.
 double slack_of_disc(const Model& model, const PushContact& contact, const Instant& at) {
   constexpr double kInstant = 1e-9;  // share of the motion
   const Vec2 p_OF = finger_in_object(at.X_HO);
@@ -83,7 +83,8 @@ double slack_of_disc(const Model& model, const PushContact& contact, const Insta
 }
 
 /// The object turns about a point as the pads let it: looked at along the way that it
-/// takes, moving as it does there.
+/// takes, moving as it does there, with gravity as it is where the object has turned away
+/// from its pusher.
 double slack_by_point(const Model& model, const Grasp& start, const LinearPush& push,
                       int parts, const Margin& margin) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -100,14 +101,17 @@ double slack_by_point(const Model& model, const Grasp& start, const LinearPush& 
     const Vec2 p_OF = finger_in_object(at.X_HO);
     at.travelled += (p_OF - last).norm();
     last = p_OF;
+    const double turned = at.X_HO.theta - pusher_pose(push, start.X_HO, sample.s).theta;
+    PushContact here = contact;
+    here.g_O = rotated(-turned, contact.g_O);
     const PlanarInstant instant = solve_planar(
-        grasp_at(model, at.X_HO, contact.g_O),
+        grasp_at(model, at.X_HO, here.g_O),
         drive_at(contact, push.place, at.X_HO, pusher_twist(push, start.X_HO, sample.s)));
     if (instant.status != InstantStatus::kMoves) return -kInfinity;
     at.velocity = rotated(-at.X_HO.theta, instant.V_HO.head<2>());
     at.omega = instant.V_HO[2];
-    slack = std::min(
-        {slack, slack_at(model, push, at, margin), slack_of_disc(model, contact, at)});
+    slack = std::min({slack, slack_at(model, here, push.place, at, margin),
+                      slack_of_disc(model, contact, at)});
   }
   return slack;
 }
@@ -154,7 +158,7 @@ double push_slack(const Model& model, const Grasp& start, const Push& push,
     const PlanarPose X_HO = pose_from_finger(p_OF - s * linear.travel * linear.e,
                                              start.X_HO.theta + s * linear.turn);
     const Instant at{X_HO, linear.travel * linear.e, linear.turn, s * linear.travel};
-    slack = std::min(slack, slack_at(model, linear, at, margin));
+    slack = std::min(slack, slack_at(model, contact, linear.place, at, margin));
   }
   return slack;
 }

@@ -43,17 +43,17 @@ enum class PlanStatus {
 std::string_view name(PlanStatus status);
 
 /// A bound on c dtheta along dp_OF that depends on the place: the gradient of a quadratic
-/// function of p_OF.
+/// function of p_OF. Places are meant from that of the start [m].
 struct TurnRate {
-  Vec2 at_start = Vec2::Zero();
-  Vec3 bend = Vec3::Zero();  ///< [1/m] how it changes with the place: xx, xy, yy
+  Vec2 at_start = Vec2::Zero();  ///< no unit
+  Vec3 bend = Vec3::Zero();      ///< [1/m] how it changes with the place: xx, xy, yy
 
   Vec2 at(const Vec2& from_start) const {
     return at_start + Vec2(bend[0] * from_start.x() + bend[1] * from_start.y(),
                            bend[1] * from_start.x() + bend[2] * from_start.y());
   }
 
-  /// Over a way from the start [m].
+  /// Bound on c times the turn over all ways from the start to there [m].
   double along(const Vec2& from_start) const {
     return from_start.dot(at(0.5 * from_start));
   }

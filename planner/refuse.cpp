@@ -38,9 +38,8 @@ std::string sentence(Proof::Kind kind) {
       return "at the goal obstacles are in the way of every push: of the hand or the "
              "object while it pushes there or retreats";
     case Proof::Kind::kTurn:
-      return "on all ways from the start to the goal that sticking pushes allow the "
-             "object "
-             "turns too little, or too much, for the goal";
+      return "sticking pushes turn the object too little, or too much, on all ways from "
+             "the start to the goal";
     case Proof::Kind::kNone:
       break;
   }

@@ -28,8 +28,8 @@ std::vector<Loops> traced_regions(const Model& model, const GoalSample& goal,
                                   const std::function<bool()>& stopped = {});
 
 /// The region that ways from `apex` on reach: between the lines that follow the outermost
-/// free directions to either side, turned aside by a share of what they may be. None if
-/// one of them ends on the object.
+/// free directions to either side, turned `aside` by a share (0..0.5) of what they may
+/// be. None if one of them ends on the object.
 Loops region_ahead(const Model& model, const Vec2& apex, const FreeAt& free_at,
                    double aside);
 

@@ -57,6 +57,18 @@ struct Square {
   }
 };
 
+/// Whether a test holds for all of a square, which is cut into four where it does not, at
+/// most so often.
+template <class Test>
+bool holds_all_over(const Square& square, int cuts, const Test& test) {
+  if (test(square)) return true;
+  if (cuts == 0) return false;
+  for (int k = 0; k < 4; ++k) {
+    if (!holds_all_over(square.quarter(k), cuts - 1, test)) return false;
+  }
+  return true;
+}
+
 /// No way from the start to the goal comes to places up to `around` from this one.
 bool is_out_of_reach(const Proof& proof, const Vec2& place, double around) {
   return (!proof.region.empty() && depth_in_region(proof.region, place) < -around) ||
@@ -87,21 +99,20 @@ class TurnLaw {
     for (int i = 0; i < kSquaresPerSide; ++i) {
       for (int j = 0; j < kSquaresPerSide; ++j) {
         const Vec2 middle = low + half_edge * Vec2(2 * i + 1, 2 * j + 1);
-        if (!hold_in({middle, half_edge}, kMostCuts)) return false;
+        const Square square{middle, half_edge};
+        if (!holds_all_over(square, kMostCuts,
+                            [&](const Square& part) { return hold_in(part); })) {
+          return false;
+        }
       }
     }
     return true;
   }
 
  private:
-  bool hold_in(const Square& square, int cuts) {
-    if (is_beside(square)) return true;
-    if (is_whole(square) && no_contact_breaks_them(square.corners())) return true;
-    if (cuts == 0) return false;
-    for (int k = 0; k < 4; ++k) {
-      if (!hold_in(square.quarter(k), cuts - 1)) return false;
-    }
-    return true;
+  bool hold_in(const Square& square) {
+    return is_beside(square) ||
+           (is_whole(square) && no_contact_breaks_them(square.corners()));
   }
 
   bool is_beside(const Square& square) const {
@@ -165,18 +176,13 @@ class GoalAngle {
         half_step_(half_step),
         looked_at_(looked_at) {}
 
-  bool is_excluded(const Square& square, int cuts) {
+  bool excludes(const Square& square) {
     if (++looked_at_ > kMostGoalSquares) return false;
     const Goal& goal = *model_.scene.goal;
     const double around =
         square.reach() + half_step_ * Vec2(*goal.x, *goal.y).norm() + kRounding;
     const Vec2 place = goal_place(goal, theta_) + rotated(-theta_, square.middle);
-    if (!is_allowed(place, around) || is_out_of_reach(proof_, place, around)) return true;
-    if (cuts == 0) return false;
-    for (int k = 0; k < 4; ++k) {
-      if (!is_excluded(square.quarter(k), cuts - 1)) return false;
-    }
-    return true;
+    return !is_allowed(place, around) || is_out_of_reach(proof_, place, around);
   }
 
  private:
@@ -206,17 +212,19 @@ class GoalAngle {
   int& looked_at_;
 };
 
-}  // namespace
-
+/// Whether no pose of the goal set with a place between the regions has an angle that the
+/// bounds allow.
 bool turn_excludes_goal(const Model& model, const Proof& proof) {
   const Goal& goal = *model.scene.goal;
-  if (!goal.x || !goal.y || !goal.theta) return false;
   int looked_at = 0;
   return for_all_goal_angles(goal, [&](double theta, double half_step) {
     GoalAngle angle(model, proof, theta, half_step, looked_at);
-    return angle.is_excluded({Vec2::Zero(), goal.position_tolerance}, kMostGoalCuts);
+    return holds_all_over({Vec2::Zero(), goal.position_tolerance}, kMostGoalCuts,
+                          [&](const Square& part) { return angle.excludes(part); });
   });
 }
+
+}  // namespace
 
 bool verify_turn(const Model& model, const Proof& proof, std::string* why) {
   const Goal& goal = *model.scene.goal;

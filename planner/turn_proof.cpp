@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -72,13 +73,16 @@ std::optional<Vec2> middle_way(const FreeDirections& free) {
   return towards(gap.from + 0.5 * gap.width + kHalfTurn);
 }
 
+using Stopped = std::function<bool()>;
+
 /// A region that is never left and holds the start, or none.
-Loops region_of_start(const Model& model, const FreeAt& free_at) {
+Loops region_of_start(const Model& model, const FreeAt& free_at, const Stopped& stopped) {
   const Vec2 start = finger_in_object(model.scene.start.X_HO);
   const auto way = middle_way(free_at(start));
   if (!way) return {};
   for (const double aside : kAside) {
     for (const double behind : kBehindStart) {
+      if (stopped && stopped()) return {};
       Loops region = region_ahead(model, start - behind * *way, free_at, aside);
       if (region.empty() || depth_in_region(region, start) <= 0.0) continue;
       if (is_never_left(model, region)) return region;
@@ -88,13 +92,15 @@ Loops region_of_start(const Model& model, const FreeAt& free_at) {
 }
 
 /// A region that is never left and holds no pose of the goal, or none.
-Loops region_beyond_goal(const Model& model, const FreeAt& free_at) {
+Loops region_beyond_goal(const Model& model, const FreeAt& free_at,
+                         const Stopped& stopped) {
   const Goal& goal = *model.scene.goal;
   const Vec2 place = goal_place(goal, *goal.theta);
   const auto way = middle_way(free_at(place));
   if (!way) return {};
   for (const double aside : kAside) {
     for (const double tolerances : kBeyondGoal) {
+      if (stopped && stopped()) return {};
       const Vec2 apex = place + tolerances * goal.position_tolerance * *way;
       Loops region = region_not_behind(model, apex, free_at, aside);
       if (region.empty() || !goal_is_outside(region, goal)) continue;
@@ -157,7 +163,7 @@ std::vector<Seen> seen_turns(const Model& model, const LocalLaw& law,
 class Bounds {
  public:
   Bounds(const std::vector<Seen>& seen, const std::vector<Vec2>& ways, double length,
-         const std::function<bool()>& stopped)
+         const Stopped& stopped)
       : seen_(seen), ways_(ways), length_(length), stopped_(stopped) {}
 
   /// The least over the ways to the goal [m].
@@ -286,7 +292,7 @@ class Bounds {
   const std::vector<Seen>& seen_;
   const std::vector<Vec2>& ways_;
   double length_;
-  const std::function<bool()>& stopped_;
+  const Stopped& stopped_;
 };
 
 /// From the start to places of the goal between the regions.
@@ -311,15 +317,15 @@ std::vector<Vec2> ways_to_goal(const Model& model, const Proof& proof) {
 }
 
 /// Completes the regions of a proof; false if neither is found.
-bool enclose(const Model& model, Proof& proof) {
+bool enclose(const Model& model, Proof& proof, const Stopped& stopped) {
   const bool clips = has_clipped_discs(model);
   std::optional<PlaceSlacks> slacks;
   if (clips) slacks.emplace(model);
   const FreeAt free_at = clips ? free_over_clipped_discs(model, *slacks, kAllowed)
                                : free_over_whole_pads(model);
   proof.turn.emplace();
-  proof.region = region_of_start(model, free_at);
-  proof.turn->beyond = region_beyond_goal(model, free_at);
+  proof.region = region_of_start(model, free_at, stopped);
+  proof.turn->beyond = region_beyond_goal(model, free_at, stopped);
   return !proof.region.empty() || !proof.turn->beyond.empty();
 }
 
@@ -348,13 +354,13 @@ double longest(const std::vector<Vec2>& ways) {
 
 }  // namespace
 
-bool find_turn(const Model& model, Proof& proof, const std::function<bool()>& stopped) {
+bool find_turn(const Model& model, Proof& proof, const Stopped& stopped) {
   const Goal& goal = *model.scene.goal;
   if (!ipopt_is_built() || !goal.x || !goal.y || !goal.theta) return false;
   const bool clips = has_clipped_discs(model);
   const LocalLaw law = clips ? LocalLaw::of_whole_discs(model) : LocalLaw(model);
   if (!law.is_known() || (clips && !has_clipped_law(model))) return false;
-  if (!enclose(model, proof) || (stopped && stopped())) return false;
+  if (!enclose(model, proof, stopped) || (stopped && stopped())) return false;
   const std::vector<Vec2> places = places_between(model, proof);
   const std::vector<Vec2> ways = ways_to_goal(model, proof);
   const double length = longest(ways);

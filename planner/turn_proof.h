@@ -20,10 +20,6 @@ namespace prehensile {
 /// at every place of the region, and goals that fix the whole pose. The work is limited.
 bool find_turn(const Model& model, Proof& proof, const std::function<bool()>& stopped);
 
-/// Whether no pose of the goal set with a place between the regions has an angle that the
-/// bounds of the proof allow.
-bool turn_excludes_goal(const Model& model, const Proof& proof);
-
 /// Whether the proof, of kind kTurn, holds: `why` (nullptr: not wanted) says what fails.
 /// The places between the regions are covered by squares, which are cut until the laws
 /// keep every contact, in every direction, within the bounds.

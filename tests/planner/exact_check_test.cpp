@@ -40,6 +40,12 @@ double slack_of_disc(const Model& model, const Grasp& start, const Push& push) {
   return least;
 }
 
+RandomPush random_push_by_point(std::uint64_t seed, std::uint64_t index) {
+  RandomPush made = random_push(seed, index);
+  made.scene.pushers[0].feature = PointFeature{};
+  return made;
+}
+
 /// Along the way of an object that turns about a point, the slack says what the
 /// transition function found by following its contact modes, whether the point slips, and
 /// whether a disc would.
@@ -47,8 +53,7 @@ TEST(ExactCheck, SlackOfAPointTellsWhetherItSlips) {
   int sticks = 0;
   int slips = 0;
   for (std::uint64_t i = 0; i < 600; ++i) {
-    RandomPush c = random_push(7, i);
-    c.scene.pushers[0].feature = PointFeature{};
+    const RandomPush c = random_push_by_point(7, i);
     const Model model = prepare(c.scene);
     const Transition done = apply(model, c.scene.start, c.push);
     const auto held = [&](const Grasp& grasp) {
@@ -77,9 +82,7 @@ TEST(ExactCheck, ADiscHasToStickToAPointAsWell) {
   int sticks = 0;
   int discs_slip = 0;
   for (std::uint64_t i = 0; i < 1500; ++i) {
-    RandomPush c = random_push(8, i);
-    c.scene.pushers[0].feature = PointFeature{};
-    c.scene.g_W.setZero();
+    const RandomPush c = random_push_by_point(8, i);
     const Model model = prepare(c.scene);
     const Transition done = apply(model, c.scene.start, c.push);
     if (!done.completed() || done.slipped > 1e-12) continue;

@@ -1,6 +1,5 @@
 #include "planner/cheapen.h"
 
-#include <cstdint>
 #include <utility>
 
 #include "planner/shorten.h"
@@ -9,17 +8,9 @@
 namespace prehensile {
 namespace {
 
-/// J from which a walk is looked for, which takes a second.
-constexpr double kWorthWalk = 20.0;
-
 /// Of what is left of the budget.
 constexpr double kShareOfPairs = 0.6;
 constexpr double kShareOfWalk = 0.3;
-
-std::int64_t share_of_left(const Work& work, double share) {
-  return static_cast<std::int64_t>(share *
-                                   static_cast<double>(work.budget - work.done()));
-}
 
 void enter(const char* stage, double cost, Work& work) {
   if (!work.meter) return;
@@ -43,10 +34,10 @@ std::vector<Move> cheaper_by_pairs(const SearchModel& search, std::vector<Move> 
 
 std::vector<Move> cheaper_by_walk(const SearchModel& search, const FlatState& start,
                                   const GoalPlaces& goals, std::vector<Move> moves,
-                                  WalkLattices& lattices, const Limits& limits,
-                                  Work& work) {
+                                  double worth, WalkLattices& lattices,
+                                  const Limits& limits, Work& work) {
   const double cost = cost_of(search, moves);
-  if (cost < kWorthWalk) return moves;
+  if (cost < worth) return moves;
   enter("cheaper walk", cost, work);
   auto walk = within_budget(work, share_of_left(work, kShareOfWalk), [&] {
     return search_walks(search, start, goals, WalkTurns::kFew, cost, lattices, limits,

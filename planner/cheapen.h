@@ -28,10 +28,13 @@ inline constexpr double kDearPair = 8.0;
 std::vector<Move> cheaper_by_pairs(const SearchModel& search, std::vector<Move> moves,
                                    const Limits& limits, Work& work);
 
-/// A walk over a fine lattice takes the place of all.
+/// J from which a walk is looked for in the stead of few pushes, which takes a second.
+inline constexpr double kWorthWalk = 20.0;
+
+/// A walk over a fine lattice takes the place of all, if they cost J = `worth` and more.
 std::vector<Move> cheaper_by_walk(const SearchModel& search, const FlatState& start,
                                   const GoalPlaces& goals, std::vector<Move> moves,
-                                  WalkLattices& lattices, const Limits& limits,
-                                  Work& work);
+                                  double worth, WalkLattices& lattices,
+                                  const Limits& limits, Work& work);
 
 }  // namespace prehensile

@@ -8,6 +8,7 @@
 #include "planner/confines_check.h"
 #include "planner/meet_end.h"
 #include "planner/point_margin.h"
+#include "planner/replay.h"
 #include "planner/ring_pads.h"
 #include "planner/roll_step.h"
 #include "planner/space_margin.h"
@@ -201,6 +202,40 @@ std::string fault_at_half_step(const Model& model, const PlannedPush& push,
   return fault_of(model, push, done, half);
 }
 
+/// Of pushes by points, each from where the one before ends at half the step: a push
+/// whose end depends much on its start carries what that misses on. Within half of what a
+/// replay allows.
+std::string fault_of_whole(const Model& model, const TransitionOptions& options,
+                           Plan& plan) {
+  constexpr double kShare = 0.5;
+  const ReplayOptions replayed;
+  TransitionOptions half = options;
+  half.max_step = 0.5 * options.max_step;
+  Grasp at = plan.start;
+  for (std::size_t i = 0; i < plan.pushes.size(); ++i) {
+    const Transition done = apply(model, at, plan.pushes[i].push, half);
+    plan.instants += done.instants;
+    at = done.end;
+    const PlanarPose& planned = plan.pushes[i].end.X_HO;
+    const double missed = std::hypot(at.X_HO.x - planned.x, at.X_HO.y - planned.y);
+    const double turned = std::abs(at.X_HO.theta - planned.theta);
+    if (done.completed() && missed <= kShare * replayed.position_tolerance &&
+        turned <= kShare * replayed.angle_tolerance) {
+      continue;
+    }
+    return "push " + std::to_string(i + 1) + ": after those before it the object ends " +
+           "elsewhere";
+  }
+  return {};
+}
+
+bool is_by_points(const Model& model, const Plan& plan) {
+  const auto count = std::ranges::count_if(plan.pushes, [&](const PlannedPush& push) {
+    return is_by_point(model, push.push);
+  });
+  return count > 1;
+}
+
 }  // namespace
 
 bool check_exactly(const Model& model, const TransitionOptions& options, Plan& plan,
@@ -225,6 +260,9 @@ bool check_exactly(const Model& model, const TransitionOptions& options, Plan& p
   }
   std::string fault = confinement_fault(model, plan.pushes);
   if (fault.empty()) fault = point_margin_fault(model, plan, options);
+  if (fault.empty() && is_by_points(model, plan)) {
+    fault = fault_of_whole(model, options, plan);
+  }
   if (!fault.empty()) {
     if (why) *why = fault;
     return false;

@@ -32,7 +32,8 @@ double travel_in_pad_plane(const Push& push);
 /// True if each push completes without slip, certified, with slack >= 0 over plan.margin,
 /// and ends within 1e-6 of where the plan says ([m] and [rad]; where a point pushes, [m]
 /// with angles weighing c), also at half the step, within limits and
-/// clear of obstacles; else `why` names the first that does not.
+/// clear of obstacles, and pushes by points done one after the other stay together with
+/// the plan; else `why` names the first that does not.
 bool check_exactly(const Model& model, const TransitionOptions& options, Plan& plan,
                    std::string* why);
 

@@ -1,6 +1,7 @@
 #include "planner/goal.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "planner/confines.h"
@@ -164,6 +165,22 @@ double nearest_angle(const Goal& goal, double theta) {
   if (!goal.theta) return theta;
   if (goal.theta_is == ThetaMeaning::kNumber) return *goal.theta;
   return theta + wrapped(*goal.theta - theta);
+}
+
+std::optional<double> angle_between(const Model& model, const GoalPlace& place,
+                                    double low, double high) noexcept {
+  const auto end = place.theta.begin() + place.count;
+  const auto met = std::find_if(place.theta.begin(), end, [&](double theta) {
+    return theta >= low && theta <= high;
+  });
+  if (met != end) return *met;
+  const bool is_number =
+      model.scene.goal && model.scene.goal->theta_is == ThetaMeaning::kNumber;
+  if (is_number || place.count == 0) return std::nullopt;
+  const double theta = place.theta[0];
+  const double turned = theta + 2.0 * kPi * std::ceil((low - theta) / (2.0 * kPi));
+  if (turned > high) return std::nullopt;
+  return turned;
 }
 
 GoalPlaces goal_places(const Model& model, const Goal& goal,

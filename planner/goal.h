@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "planner/planner.h"
 #include "planner/steering.h"
@@ -31,6 +32,11 @@ struct GoalPlace {
   int count = 0;
   std::array<double, 3> theta{};
 };
+
+/// An angle from `low` to `high` [rad] that meets the goal at a place: one of those of
+/// the place, else the first one by whole turns, where these do not count.
+std::optional<double> angle_between(const Model& model, const GoalPlace& place,
+                                    double low, double high) noexcept;
 
 /// Members of a goal set, nearest to the start first. A fixed coordinate takes its exact
 /// value; a free one keeps that of the start first, then steps through a fixed grid.

@@ -20,6 +20,11 @@ auto within_budget(Work& work, std::int64_t budget, Act act) {
   return answer;
 }
 
+inline std::int64_t share_of_left(const Work& work, double share) {
+  return static_cast<std::int64_t>(share *
+                                   static_cast<double>(work.budget - work.done()));
+}
+
 class Limits {
  public:
   Limits(const PlanOptions& options, const Work& work)

@@ -15,6 +15,7 @@
 #include "planner/fallback.h"
 #include "planner/fan_search.h"
 #include "planner/holding.h"
+#include "planner/loop_search.h"
 #include "planner/roll_step.h"
 #include "planner/shorten.h"
 #include "planner/walk_search.h"
@@ -76,13 +77,27 @@ std::optional<std::vector<Move>> search_with_real_pads(const SearchModel& search
   return moves;
 }
 
+/// Of what is left of the budget, for walks around one loop.
+constexpr double kShareOfLoops = 0.4;
+
+/// J from which one of these is looked at by cheaper_by_walk.
+constexpr double kWorthWalkOfLoops = 3.0;
+
 /// The stages that cost more, and find what the ellipsoid hides; what they find is made
-/// cheaper where it is dear. `best`: the plan so far, to be improved.
+/// cheaper where it is dear. `beside`: of places beside the goals, for walks around a
+/// loop; null: none of these. `best`: the plan so far, to be improved.
 bool plan_with_real_pads(const SearchModel& search, const FlatState& from,
-                         const GoalPlaces& goals, std::optional<FoundChain> best,
-                         WalkLattices& lattices, const Limits& limits, Work& work,
-                         Plan& plan) {
+                         const GoalPlaces& goals, const GoalPlaces* beside,
+                         std::optional<FoundChain> best, WalkLattices& lattices,
+                         const Limits& limits, Work& work, Plan& plan) {
   auto moves = search_with_real_pads(search, from, goals, std::move(best), limits, work);
+  double worth_walk = kWorthWalk;
+  if (!moves && beside) {
+    worth_walk = kWorthWalkOfLoops;
+    moves = within_budget(work, share_of_left(work, kShareOfLoops), [&] {
+      return search_loops(search, from, goals, *beside, lattices, limits, work);
+    });
+  }
   const bool is_walk = !moves;
   if (is_walk) {
     moves = search_walks(search, from, goals, WalkTurns::kFew, kInfinity, lattices,
@@ -91,8 +106,8 @@ bool plan_with_real_pads(const SearchModel& search, const FlatState& from,
   if (!moves) return false;
   moves = cheaper_by_pairs(search, std::move(*moves), limits, work);
   if (!is_walk) {
-    moves =
-        cheaper_by_walk(search, from, goals, std::move(*moves), lattices, limits, work);
+    moves = cheaper_by_walk(search, from, goals, std::move(*moves), worth_walk, lattices,
+                            limits, work);
   }
   for (const Move& move : *moves) append_move(search, move, plan);
   return true;
@@ -146,7 +161,9 @@ bool plan_in_plane(const SearchModel& search, const Grasp& start, const Goal& go
     append_chain(search, from, found->chain, plan);
     return true;
   }
-  return plan_with_real_pads(search, from, goals, found, lattices, limits, work, plan);
+  const GoalPlaces beside = tolerated_places(*search.model, goal, from);
+  return plan_with_real_pads(search, from, goals, &beside, found, lattices, limits, work,
+                             plan);
 }
 
 /// The stages of more than two pushes once more, to places that are off the goal by up to
@@ -159,7 +176,8 @@ bool plan_beside_goal(const SearchModel& search, const Grasp& start, const Goal&
   if (places.count == 0) return false;
   const double bound = guide_bound(*search.model, start, goal);
   const auto found = search_chains(search, from, places, bound, limits, work);
-  return plan_with_real_pads(search, from, places, found, lattices, limits, work, plan);
+  return plan_with_real_pads(search, from, places, nullptr, found, lattices, limits, work,
+                             plan);
 }
 
 /// Walks that wind the object up: to the goal with half of the work, then beside it.
@@ -223,12 +241,9 @@ bool plan_in_shares(const SearchModel& search, const Grasp& start, const Goal& g
       *find_planner(kOwnPlanner), options.settings,
       search.model->scene.obstacles ? "fallback_share_obstacles" : "fallback_share");
   const std::int64_t whole = work.budget;
-  const auto share_of_left = [&](double part) {
-    return static_cast<std::int64_t>(part * static_cast<double>(whole - work.done()));
-  };
-  const std::int64_t of_fallback = share_of_left(share);
+  const std::int64_t of_fallback = share_of_left(work, share);
   const std::int64_t of_turns =
-      search.model->scene.obstacles ? 0 : share_of_left(kShareOfManyTurns);
+      search.model->scene.obstacles ? 0 : share_of_left(work, kShareOfManyTurns);
   work.budget = whole - of_fallback - of_turns;
   const bool exact = plan_in_plane(search, start, goal, lattices, limits, work, plan);
   work.budget = whole;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -13,9 +14,6 @@
 namespace prehensile {
 namespace {
 
-/// Rows and columns that a push goes, at most.
-constexpr int kStride = 3;
-
 /// Pads half way between nodes that are kept, at most: some 3 KB each. Five or six steps
 /// that differ meet half way at each of these places.
 constexpr std::size_t kMostBetween = 500;
@@ -25,7 +23,7 @@ constexpr std::size_t kMostBetween = 500;
 constexpr double kBesidePoints = 2e-4;
 
 /// Of this many spacings pushes from the start and to the goals are, at most.
-constexpr double kReach = 1.5 * kStride;
+constexpr double kReach = 4.5;
 
 /// The worst of a box of uncertainty, as far as it is the same for every push; the check
 /// of a whole walk knows the rest.
@@ -41,17 +39,18 @@ StickContact weakened(const SearchContact& contact, const Margin& margin) {
 }  // namespace
 
 WalkLattice::WalkLattice(const SearchModel& search, const FlatState& start,
-                         const GoalPlaces& goals, int per_side, Steepness steepness)
+                         const GoalPlaces& goals, const Fineness& fineness,
+                         Steepness steepness)
     : search_(search),
       model_(*search.model),
       contacts_(static_cast<int>(search.contacts.size())),
       steepness_(steepness),
-      grid_(PlaceGrid::over(model_.pad_face, per_side)) {
+      grid_(PlaceGrid::over(model_.pad_face, fineness.per_side)) {
   for (const SearchContact& contact : search.contacts) {
     weak_.push_back(weakened(contact, search.margin));
   }
   add_nodes();
-  add_steps();
+  add_steps(fineness.stride);
   set_ends(start, goals);
 }
 
@@ -92,9 +91,9 @@ void WalkLattice::narrow(int node, int edge, double lo, double hi) {
   narrower.hi = hi;
 }
 
-void WalkLattice::add_steps() {
-  for (int i = -kStride; i <= kStride; ++i) {
-    for (int j = -kStride; j <= kStride; ++j) {
+void WalkLattice::add_steps(int stride) {
+  for (int i = -stride; i <= stride; ++i) {
+    for (int j = -stride; j <= stride; ++j) {
       if (std::gcd(i, j) != 1) continue;
       const Vec2 way = grid_.spacing * Vec2(i, j);
       steps_.push_back({i, j, way.norm(), -way.normalized()});
@@ -109,6 +108,25 @@ void WalkLattice::find_held(Node& node, Work& work) const {
     node.held.push_back(
         pads_hold_gravity(model_, pose_from_finger(node.p_OF, 0.0), g_O, work));
   }
+}
+
+WalkLattice::KeptRanges::KeptRanges(const KappaRanges& ranges) {
+  constexpr float kFar = std::numeric_limits<float>::infinity();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(ranges.count); ++i) {
+    const auto [lo, hi] = ranges.intervals[i];
+    lo_[i] = static_cast<float>(lo);
+    hi_[i] = static_cast<float>(hi);
+    if (lo_[i] < lo) lo_[i] = std::nextafter(lo_[i], kFar);
+    if (hi_[i] > hi) hi_[i] = std::nextafter(hi_[i], -kFar);
+  }
+}
+
+KappaRanges WalkLattice::KeptRanges::ranges() const {
+  KappaRanges ranges;
+  for (std::size_t i = 0; i < lo_.size(); ++i) {
+    if (lo_[i] <= hi_[i]) ranges.intervals[ranges.count++] = {lo_[i], hi_[i]};
+  }
+  return ranges;
 }
 
 KappaRanges WalkLattice::slopes_along(Node& node, int contact, DirectedDrag& drag) const {
@@ -130,7 +148,7 @@ void WalkLattice::find_slopes(Node& node, Work& work) {
   work.other += static_cast<std::int64_t>(steps_.size());
   const auto keep = [&](std::size_t s, DirectedDrag& drag) {
     for (int k = 0; k < contacts_; ++k) {
-      node.slopes[s * contacts_ + k] = slopes_along(node, k, drag);
+      node.slopes[s * contacts_ + k] = KeptRanges(slopes_along(node, k, drag));
     }
   };
   if (whole) {
@@ -182,7 +200,7 @@ WalkLattice::OfContacts WalkLattice::slopes_of_step(std::size_t step, const Node
   OfContacts slopes(static_cast<std::size_t>(contacts_));
   for (int k = 0; k < contacts_; ++k) {
     const std::size_t at = step * contacts_ + k;
-    slopes[k] = common(from.slopes[at], to.slopes[at]);
+    slopes[k] = common(from.slopes[at].ranges(), to.slopes[at].ranges());
   }
   return slopes;
 }
@@ -275,15 +293,14 @@ const std::vector<WalkEdge>& WalkLattice::edges_from(int index, Work& work) {
 }
 
 WalkLattice& WalkLattices::between(const SearchModel& search, const FlatState& start,
-                                   const GoalPlaces& goals, int per_side,
+                                   const GoalPlaces& goals, const Fineness& fineness,
                                    Steepness steepness) {
-  if (search_ != &search || steepness_ != steepness) by_nodes_per_side_.clear();
+  if (search_ != &search || steepness_ != steepness) by_fineness_.clear();
   search_ = &search;
   steepness_ = steepness;
-  const auto known = by_nodes_per_side_.find(per_side);
-  if (known == by_nodes_per_side_.end()) {
-    return by_nodes_per_side_
-        .try_emplace(per_side, search, start, goals, per_side, steepness)
+  const auto known = by_fineness_.find(fineness);
+  if (known == by_fineness_.end()) {
+    return by_fineness_.try_emplace(fineness, search, start, goals, fineness, steepness)
         .first->second;
   }
   known->second.set_ends(start, goals);

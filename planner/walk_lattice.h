@@ -2,6 +2,8 @@
 /// turn. Internal to the planner.
 #pragma once
 
+#include <array>
+#include <compare>
 #include <map>
 #include <optional>
 #include <unordered_map>
@@ -20,12 +22,20 @@ struct WalkEdge {
   double cost = 0.0;          ///< least path length in the flat space, over L
 };
 
+/// How fine a lattice is.
+struct Fineness {
+  int per_side;  ///< nodes over the longer side of the object
+  int stride =
+      3;  ///< rows and columns that a push goes, at most: the more, the more ways
+  auto operator<=>(const Fineness&) const = default;
+};
+
 class WalkLattice {
  public:
-  /// `per_side` nodes over the longer side of the object, the start, and the places of
-  /// the goals. `search` must outlive the lattice.
+  /// Over the object, the start, and the places of the goals. `search` must outlive the
+  /// lattice.
   WalkLattice(const SearchModel& search, const FlatState& start, const GoalPlaces& goals,
-              int per_side, Steepness steepness);
+              const Fineness& fineness, Steepness steepness);
   WalkLattice(const WalkLattice&) = delete;
   WalkLattice& operator=(const WalkLattice&) = delete;
 
@@ -34,6 +44,9 @@ class WalkLattice {
 
   int nodes() const { return static_cast<int>(nodes_.size()); }
   int start() const { return start_; }
+  /// Steps from its nodes by all contacts: what they allow takes most of the memory.
+  int slopes() const { return start_ * static_cast<int>(steps_.size()) * contacts_; }
+
   const Vec2& place(int node) const { return nodes_[node].p_OF; }
 
   /// The index of the goal that a node is the place of, or negative.
@@ -46,10 +59,20 @@ class WalkLattice {
   void narrow(int node, int edge, double lo, double hi);
 
  private:
+  /// In less room, rounded inwards.
+  class KeptRanges {
+   public:
+    KeptRanges() = default;
+    explicit KeptRanges(const KappaRanges& ranges);
+    KappaRanges ranges() const;
+
+   private:
+    std::array<float, 2> lo_ = {1.0F, 1.0F}, hi_ = {0.0F, 0.0F};  // lo > hi: none
+  };
   struct Node {
     Vec2 p_OF;
-    std::vector<char> held = {};           // by contact; empty: not known yet
-    std::vector<KappaRanges> slopes = {};  // by step and contact
+    std::vector<char> held = {};          // by contact; empty: not known yet
+    std::vector<KeptRanges> slopes = {};  // by step and contact
     bool knows_steps = false, knows_goals = false;
     std::size_t steps = 0;  // of the edges; the others lead to goals
     std::vector<WalkEdge> edges = {};
@@ -65,7 +88,7 @@ class WalkLattice {
   };
 
   void add_nodes();
-  void add_steps();
+  void add_steps(int stride);
   void find_held(Node& node, Work& work) const;
   void find_slopes(Node& node, Work& work);
   KappaRanges slopes_along(Node& node, int contact, DirectedDrag& drag) const;
@@ -103,12 +126,13 @@ class WalkLattices {
   /// Of the search that was asked for last, and of one steepness, to save memory.
   /// `search` must outlive them.
   WalkLattice& between(const SearchModel& search, const FlatState& start,
-                       const GoalPlaces& goals, int per_side, Steepness steepness);
+                       const GoalPlaces& goals, const Fineness& fineness,
+                       Steepness steepness);
 
  private:
   const SearchModel* search_ = nullptr;
   Steepness steepness_ = Steepness::kUsual;
-  std::map<int, WalkLattice> by_nodes_per_side_;
+  std::map<Fineness, WalkLattice> by_fineness_;
 };
 
 }  // namespace prehensile

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <queue>
 
 #include "planner/baselines.h"
@@ -28,8 +27,6 @@ constexpr double kFewTurns = 15.0;
 constexpr double kManyTurns = 150.0;
 constexpr int kBucketsOfFew = 400;
 constexpr int kBucketsOfMany = 1000;
-
-constexpr double kTurn = 2.0 * std::numbers::pi;
 
 constexpr std::size_t kMostLabels = 400'000;
 
@@ -120,8 +117,6 @@ class WalkSearch {
         c_(search.model->c),
         most_turn_(turns == WalkTurns::kFew ? kFewTurns : kManyTurns),
         buckets_(turns == WalkTurns::kFew ? kBucketsOfFew : kBucketsOfMany),
-        is_number_(search.model->scene.goal &&
-                   search.model->scene.goal->theta_is == ThetaMeaning::kNumber),
         rest_(lattice, static_cast<int>(search.contacts.size()), limits, work) {
     const TurnWindow window = turns_from(search, start.theta);
     window_ = {c_ * std::max(window.low, -most_turn_),
@@ -159,16 +154,8 @@ class WalkSearch {
     const int index = lattice_.goal_at(label.node);
     if (index < 0) return std::nullopt;
     const GoalPlace& goal = goals_.places[static_cast<std::size_t>(index)];
-    for (int i = 0; i < goal.count; ++i) {
-      const double wanted = c_ * (goal.theta[i] - start_.theta);
-      if (wanted >= label.lo && wanted <= label.hi) return goal.theta[i];
-    }
-    if (is_number_ || goal.count == 0) return std::nullopt;
-    const double theta = goal.theta[0];
-    const double low = start_.theta + label.lo / c_;
-    const double turned = theta + kTurn * std::ceil((low - theta) / kTurn);
-    if (turned > start_.theta + label.hi / c_) return std::nullopt;
-    return turned;
+    return angle_between(*search_.model, goal, start_.theta + label.lo / c_,
+                         start_.theta + label.hi / c_);
   }
 
   void expand(int index) {
@@ -269,8 +256,7 @@ class WalkSearch {
   const double c_;          // [m]
   const double most_turn_;  // [rad]
   const int buckets_;
-  const bool is_number_;  // the goal's angle: whole turns count
-  TurnWindow window_;     // of c dtheta [m]
+  TurnWindow window_;  // of c dtheta [m]
   WalkRest rest_;
   int buckets_compared_ = 0;  // and not yet counted as work
   std::vector<Kept> kept_;    // by node; room where one is reached
@@ -287,6 +273,8 @@ std::vector<int> nodes_per_side(const SearchModel& search, WalkTurns turns) {
   return nodes;
 }
 
+}  // namespace
+
 bool is_for_walks(const SearchModel& search) {
   const Model& model = *search.model;
   return !model.scene.obstacles && model.F > 0.0 && model.c > 0.0 &&
@@ -294,8 +282,6 @@ bool is_for_walks(const SearchModel& search) {
              model.contacts.begin(), model.contacts.end(),
              [&](const PushContact& contact) { return model.needs_space(contact); });
 }
-
-}  // namespace
 
 std::optional<std::vector<Move>> search_walks(const SearchModel& search,
                                               const FlatState& start,
@@ -306,7 +292,7 @@ std::optional<std::vector<Move>> search_walks(const SearchModel& search,
   const Steepness steepness =
       turns == WalkTurns::kFew ? Steepness::kUsual : Steepness::kSteep;
   for (const int per_side : nodes_per_side(search, turns)) {
-    WalkLattice& lattice = lattices.between(search, start, goals, per_side, steepness);
+    WalkLattice& lattice = lattices.between(search, start, goals, {per_side}, steepness);
     const auto contacts = static_cast<int>(search.contacts.size());
     if (lattice.nodes() * contacts > kMostStates) break;
     const auto moves =

@@ -22,11 +22,14 @@ enum class WalkTurns {
   kMany,  ///< by up to 150 rad, and 40 rad per c: many more pushes are looked at
 };
 
+/// False among obstacles, and for pads that need the mechanics in space.
+bool is_for_walks(const SearchModel& search);
+
 /// Pushes to one of the goals, shortened from the cheapest walk over the lattice; each
-/// sticks with the real pads. A goal that is an angle is met at any whole turn. None
-/// among obstacles, for pads that need the mechanics in space, or if the lattice holds no
-/// walk cheaper than `to_beat` (infinity: any) or a limit is reached. `lattices`: kept
-/// for other walks of the same search.
+/// sticks with the real pads. A goal that is an angle is met at any whole turn. None if
+/// they are not for such scenes, the lattice holds no walk cheaper than `to_beat`
+/// (infinity: any) or a limit is reached. `lattices`: kept for other walks of the same
+/// search.
 std::optional<std::vector<Move>> search_walks(const SearchModel& search,
                                               const FlatState& start,
                                               const GoalPlaces& goals, WalkTurns turns,

@@ -44,7 +44,7 @@ TEST(Cheapen, DearMovesCostAFewPushes) {
     EXPECT_LE(pairs, cost_of(search, moves) + 1e-9) << i;
     WalkLattices lattices;
     cheaper = cheaper_by_walk(search, moves.front().from, end_of(moves), cheaper,
-                              lattices, limits, work);
+                              kWorthWalk, lattices, limits, work);
     EXPECT_LE(cost_of(search, cheaper), pairs + 1e-9) << i;
     EXPECT_TRUE(testing::is_detour_of(cheaper, moves)) << i;
     EXPECT_EQ(work.budget, 5'000'000);
@@ -68,7 +68,7 @@ TEST(Cheapen, CheapMovesStay) {
   const auto by_pairs = cheaper_by_pairs(search, moves, limits, work);
   WalkLattices lattices;
   const auto by_walk = cheaper_by_walk(search, moves.front().from, end_of(moves), moves,
-                                       lattices, limits, work);
+                                       kWorthWalk, lattices, limits, work);
   EXPECT_EQ(cost_of(search, by_pairs), cost_of(search, moves));
   EXPECT_EQ(cost_of(search, by_walk), cost_of(search, moves));
   EXPECT_EQ(work.done(), 0);

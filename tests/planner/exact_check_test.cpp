@@ -100,5 +100,39 @@ TEST(ExactCheck, ADiscHasToStickToAPointAsWell) {
   EXPECT_GE(discs_slip, 1);
 }
 
+/// Two pushes by points, each right by itself: where the second one begins beside the end
+/// of the first, the object is carried beside its end.
+TEST(ExactCheck, PushesByPointsStayWithThePlan) {
+  int right = 0;
+  for (std::uint64_t i = 0; i < 300; ++i) {
+    const RandomPush c = random_push_by_point(9, i);
+    const Model model = prepare(c.scene);
+    const TransitionOptions options;
+    const auto follow = [&](const Grasp& start) {
+      const Transition done = apply(model, start, c.push, options);
+      return PlannedPush{.push = c.push, .start = start, .end = done.end};
+    };
+    Plan plan;
+    plan.start = c.scene.start;
+    plan.margin = Margin::none();
+    plan.pushes = {follow(c.scene.start)};
+    plan.pushes.push_back(follow(plan.pushes[0].end));
+    std::string why;
+    if (!check_exactly(model, options, plan, &why)) continue;
+    Grasp beside = plan.pushes[0].end;
+    beside.X_HO.x += 2e-4;
+    Plan apart = plan;
+    apart.pushes[1] = follow(beside);
+    Plan alone = apart;
+    alone.pushes.erase(alone.pushes.begin());
+    alone.start = beside;
+    if (!check_exactly(model, options, alone, &why)) continue;
+    ++right;
+    EXPECT_FALSE(check_exactly(model, options, apart, &why)) << i;
+    EXPECT_EQ(why, "push 2: after those before it the object ends elsewhere");
+  }
+  EXPECT_GE(right, 5);
+}
+
 }  // namespace
 }  // namespace prehensile

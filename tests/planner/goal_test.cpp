@@ -69,6 +69,25 @@ TEST(Goal, PlacesMeetTheGoalOnTheObjectNearestFirst) {
   }
 }
 
+TEST(Goal, AngleBetweenIsOneOfThePlaceOrWholeTurnsFromIt) {
+  Scene scene = published_tee(3);
+  const GoalPlace place{.count = 2, .theta = {1.0, 1.0 - 2.0 * kPi}};
+  const Model angle = prepare(scene);
+  scene.goal->theta_is = ThetaMeaning::kNumber;
+  const Model number = prepare(scene);
+  for (const Model* model : {&angle, &number}) {
+    EXPECT_EQ(angle_between(*model, place, 0.0, 2.0), 1.0);
+    EXPECT_EQ(angle_between(*model, place, 1.0, 1.0), 1.0);
+    EXPECT_EQ(angle_between(*model, place, -6.0, 0.0), 1.0 - 2.0 * kPi);
+    EXPECT_FALSE(angle_between(*model, place, 1.1, 6.0));
+    EXPECT_FALSE(angle_between(*model, place, 2.0, 0.0));
+    EXPECT_FALSE(angle_between(*model, {}, -100.0, 100.0));
+    EXPECT_EQ(angle_between(*model, place, 60.0, 70.0).has_value(), model == &angle);
+  }
+  EXPECT_NEAR(*angle_between(angle, place, 60.0, 70.0), 1.0 + 20.0 * kPi, 1e-12);
+  EXPECT_NEAR(*angle_between(angle, place, -70.0, -60.0), 1.0 - 22.0 * kPi, 1e-12);
+}
+
 TEST(Goal, WoundPlacesAreTheWholeTurnsThatOthersLeaveOut) {
   const Model model = prepare(published_tee(3));
   Goal goal = goal_at({0.01, 0.0}, 1.0);

@@ -48,8 +48,8 @@ TEST(WalkLattice, OtherEndsMakeItAnother) {
     GoalPlaces one = c.goals;
     one.count = 1;
     one.places[0].p_OF *= 0.7;
-    WalkLattice fresh(c.search, c.start, c.goals, kNodesPerSide, Steepness::kUsual);
-    WalkLattice other(c.search, elsewhere, one, kNodesPerSide, Steepness::kUsual);
+    WalkLattice fresh(c.search, c.start, c.goals, {kNodesPerSide}, Steepness::kUsual);
+    WalkLattice other(c.search, elsewhere, one, {kNodesPerSide}, Steepness::kUsual);
     for (const WalkEdge& edge : all_edges(other, c.work)) edges += edge.lo <= edge.hi;
     for (int node = 0; node < other.start(); ++node) {
       for (int k = 0; k < static_cast<int>(other.edges_from(node, c.work).size()); ++k) {
@@ -67,8 +67,8 @@ TEST(WalkLattice, OtherEndsMakeItAnother) {
 TEST(WalkLattice, EdgesHaveNoOrder) {
   for (std::uint64_t i = 0; i < 4; ++i) {
     Case c(i);
-    WalkLattice forwards(c.search, c.start, c.goals, kNodesPerSide, Steepness::kUsual);
-    WalkLattice backwards(c.search, c.start, c.goals, kNodesPerSide, Steepness::kUsual);
+    WalkLattice forwards(c.search, c.start, c.goals, {kNodesPerSide}, Steepness::kUsual);
+    WalkLattice backwards(c.search, c.start, c.goals, {kNodesPerSide}, Steepness::kUsual);
     for (int node = backwards.nodes() - 1; node >= 0; --node) {
       backwards.edges_from(node, c.work);
     }
@@ -82,7 +82,8 @@ TEST(WalkLattice, IsKeptForOtherEndsOfTheSameSearch) {
   WalkLattices lattices;
   const auto work_on = [&](Case& of, int per_side, Steepness steepness) {
     Work work{.budget = testing::kNoBudget};
-    all_edges(lattices.between(of.search, of.start, of.goals, per_side, steepness), work);
+    all_edges(lattices.between(of.search, of.start, of.goals, {per_side}, steepness),
+              work);
     return work.done();
   };
   const std::int64_t first = work_on(c, kNodesPerSide, Steepness::kUsual);

@@ -17,7 +17,7 @@ struct Case : testing::RandomSearch {
   explicit Case(std::uint64_t index, std::int64_t budget = 5'000'000)
       : RandomSearch(index),
         work{.budget = budget},
-        lattice(search, start, goals, 16, Steepness::kUsual),
+        lattice(search, start, goals, {16}, Steepness::kUsual),
         contacts(static_cast<int>(search.contacts.size())),
         rest(lattice, contacts, Limits(options, work), work) {}
 

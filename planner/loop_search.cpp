@@ -11,6 +11,7 @@
 #include "planner/confines.h"
 #include "planner/shorten.h"
 #include "planner/turning_loop.h"
+#include "planner/walk_gap.h"
 #include "planner/walk_search.h"
 
 namespace prehensile {
@@ -22,6 +23,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// take a second, and find ways too narrow for a margin.
 constexpr std::array kFewWays = {24, 48};
 constexpr std::array<Fineness, 2> kManyWays = {{{64, 8}, {96, 5}}};
+
+/// What the last of the former leaves between start and goal is closed by the latter if
+/// it is not more [spacings].
+constexpr double kNear = 4.0;
 
 /// Steps of their nodes by all contacts: what they allow is kept, 16 bytes each.
 constexpr int kMostSlopes = 1'500'000;
@@ -273,8 +278,16 @@ std::optional<std::vector<Move>> search_loops(
     if (moves) break;
     search_over(lattices.between(search, start, goals, {per_side}, Steepness::kUsual));
   }
+  const auto is_near = [&](int per_side) {
+    WalkLattice& lattice = lattices.between(
+        search, start, beside.count > 0 ? beside : goals, {per_side}, Steepness::kUsual);
+    return walk_gap(lattice, limits, work) <= kNear;
+  };
+  if (!moves && (!search.margin.is_none() || !is_near(kFewWays.back()))) {
+    return std::nullopt;
+  }
   for (const Fineness& fineness : kManyWays) {
-    if (moves || !search.margin.is_none()) break;
+    if (moves) break;
     WalkLattice lattice(search, start, goals, fineness, Steepness::kUsual);
     search_over(lattice);
   }

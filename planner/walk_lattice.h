@@ -47,6 +47,7 @@ class WalkLattice {
   /// Steps from its nodes by all contacts: what they allow takes most of the memory.
   int slopes() const { return start_ * static_cast<int>(steps_.size()) * contacts_; }
 
+  double spacing() const { return grid_.spacing; }
   const Vec2& place(int node) const { return nodes_[node].p_OF; }
 
   /// The index of the goal that a node is the place of, or negative.

@@ -1,0 +1,57 @@
+#include "planner/walk_gap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace prehensile {
+namespace {
+
+using Neighbours = std::vector<std::vector<int>>;  // by node
+
+/// The nodes that a way leads to from some of them, these first.
+std::vector<int> reached_from(std::vector<int> nodes, const Neighbours& next) {
+  std::vector<char> seen(next.size());
+  for (const int node : nodes) seen[node] = 1;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    for (const int to : next[nodes[i]]) {
+      if (seen[to]) continue;
+      seen[to] = 1;
+      nodes.push_back(to);
+    }
+  }
+  return nodes;
+}
+
+}  // namespace
+
+double walk_gap(WalkLattice& lattice, const Limits& limits, Work& work) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const auto count = static_cast<std::size_t>(lattice.nodes());
+  Neighbours after(count);
+  Neighbours before(count);
+  for (int node = 0; node <= lattice.start(); ++node) {
+    if (limits.reached()) return kInfinity;
+    for (const WalkEdge& edge : lattice.edges_from(node, work)) {
+      if (edge.lo > edge.hi) continue;
+      after[node].push_back(edge.to);
+      before[edge.to].push_back(node);
+    }
+  }
+  std::vector<int> goals;
+  for (int node = 0; node < lattice.nodes(); ++node) {
+    if (lattice.goal_at(node) >= 0) goals.push_back(node);
+  }
+  const std::vector<int> from_start = reached_from({lattice.start()}, after);
+  const std::vector<int> to_goal = reached_from(goals, before);
+  double least = kInfinity;
+  for (const int one : from_start) {
+    for (const int other : to_goal) {
+      least = std::min(least, (lattice.place(one) - lattice.place(other)).squaredNorm());
+    }
+  }
+  return std::sqrt(least) / lattice.spacing();
+}
+
+}  // namespace prehensile

@@ -20,7 +20,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Lattices that are tried: those of other walks, and then some that are not kept. These
-/// take a second, and find ways too narrow for a margin.
+/// take a second, and find ways too narrow for a margin of the place.
 constexpr std::array kFewWays = {24, 48};
 constexpr std::array<Fineness, 2> kManyWays = {{{64, 8}, {96, 5}}};
 
@@ -283,7 +283,7 @@ std::optional<std::vector<Move>> search_loops(
         search, start, beside.count > 0 ? beside : goals, {per_side}, Steepness::kUsual);
     return walk_gap(lattice, limits, work) <= kNear;
   };
-  if (!moves && (!search.margin.is_none() || !is_near(kFewWays.back()))) {
+  if (!moves && (search.margin.place > 0.0 || !is_near(kFewWays.back()))) {
     return std::nullopt;
   }
   for (const Fineness& fineness : kManyWays) {

@@ -153,21 +153,61 @@ PlannedPush part_of(const PlannedPush& whole, int part, int parts) {
   return piece;
 }
 
+/// Begins where the object is, which for a plan as it is done is where the push before
+/// ended at half the step, and tells where it is then.
+class Follower {
+ public:
+  Follower(const Model& model, const TransitionOptions& options, const Grasp& start,
+           std::int64_t& instants)
+      : model_(model), half_(options), at_(start), instants_(instants) {
+    half_.max_step *= 0.5;
+  }
+
+  const Grasp& at() const { return at_; }
+  void go_back(const Grasp& grasp) { at_ = grasp; }
+
+  /// Where a push that begins there ends. False, and at its planned end, if it does not
+  /// get there nearly.
+  bool follow(const PlannedPush& planned) {
+    const Transition done = apply(model_, at_, planned.push, half_);
+    instants_ += done.instants;
+    const PlanarPose& end = done.end.X_HO;
+    const PlanarPose& wanted = planned.end.X_HO;
+    const Vec3 missed(end.x - wanted.x, end.y - wanted.y,
+                      model_.c * (end.theta - wanted.theta));
+    const bool arrives = done.completed() && missed.norm() <= kSteady;
+    at_ = arrives ? done.end : planned.end;
+    return arrives;
+  }
+
+ private:
+  const Model& model_;
+  TransitionOptions half_;
+  Grasp at_;
+  std::int64_t& instants_;
+};
+
 /// The push in the fewest parts that all meet their ends; as it is where none do.
 void append_corrected(const Model& model, const TransitionOptions& options,
-                      const PlannedPush& planned, std::vector<PlannedPush>& pushes,
-                      std::int64_t& instants) {
+                      const PlannedPush& planned, Follower& follower,
+                      std::vector<PlannedPush>& pushes, std::int64_t& instants) {
+  const Grasp before = follower.at();
   for (const int parts : kParts) {
-    const std::size_t before = pushes.size();
+    const std::size_t count = pushes.size();
     bool all = true;
     for (int i = 0; all && i < parts; ++i) {
       pushes.push_back(part_of(planned, i, parts));
-      all = meets_end(model, options, pushes.back(), instants);
+      pushes.back().start = follower.at();
+      all = meets_end(model, options, pushes.back(), instants) &&
+            follower.follow(pushes.back());
+      pushes.back().end = follower.at();
     }
     if (all) return;
-    pushes.resize(before);
+    pushes.resize(count);
+    follower.go_back(before);
   }
   pushes.push_back(planned);
+  follower.follow(planned);
 }
 
 }  // namespace
@@ -178,15 +218,24 @@ bool is_by_point(const Model& model, const Push& push) {
 }
 
 void meet_ends(const Model& model, const TransitionOptions& options, Plan& plan) {
-  std::vector<PlannedPush> pushes;
-  for (const PlannedPush& planned : plan.pushes) {
+  const auto is_aimed = [&](const PlannedPush& planned) {
     const auto* const push = std::get_if<LinearPush>(&planned.push);
-    if (push && push->travel > 0.0 && is_by_point(model, planned.push)) {
-      append_corrected(model, options, planned, pushes, plan.instants);
-    } else {
-      pushes.push_back(planned);
+    return push && push->travel > 0.0 && is_by_point(model, planned.push);
+  };
+  if (std::ranges::none_of(plan.pushes, is_aimed)) return;
+  std::vector<PlannedPush> pushes;
+  Follower follower(model, options, plan.pushes.front().start, plan.instants);
+  for (const PlannedPush& planned : plan.pushes) {
+    if (is_aimed(planned)) {
+      append_corrected(model, options, planned, follower, pushes, plan.instants);
+      continue;
     }
+    pushes.push_back(planned);
+    pushes.back().start = follower.at();
+    follower.follow(pushes.back());
+    pushes.back().end = follower.at();
   }
+  if (!pushes.empty()) pushes.back().end = plan.pushes.back().end;
   plan.pushes = std::move(pushes);
 }
 

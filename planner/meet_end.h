@@ -15,7 +15,9 @@ bool is_by_point(const Model& model, const Push& push);
 /// for the three of a pose. Where it finds no such push, nearby, the straight way of the
 /// push is done in two, four or eight parts, each by a push with a place of its own; if
 /// these do not meet their ends either, the push stays as it is, for `check_exactly` to
-/// refuse. Counts instants.
+/// refuse. Each push then begins where the one before really ends, as a replay with half
+/// the step finds it: what an end misses, up to 1e-6 m, may grow in the pushes after it.
+/// Counts instants.
 void meet_ends(const Model& model, const TransitionOptions& options, Plan& plan);
 
 }  // namespace prehensile

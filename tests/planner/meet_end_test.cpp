@@ -130,5 +130,29 @@ TEST(MeetEnd, PlansByPointsAreReplayed) {
   EXPECT_EQ(planned, problems);
 }
 
+/// Each push begins where the one before really ends, so that nothing adds up.
+TEST(MeetEnd, ErrorsDoNotAddUp) {
+  FixtureRange range;
+  range.object = FixtureObject::kConcave;
+  range.pushers = FixturePushers::kPoints;
+  range.goals = GoalsFrom::kRandom;
+  std::size_t longest = 0;
+  for (std::uint64_t i = 0; i < 16; ++i) {
+    const Model model = prepare(random_fixture(range, 8, i)->scene);
+    const Plan plan = plan_regrasp(model);
+    if (!plan.usable()) continue;
+    longest = std::max(longest, plan.pushes.size());
+    const Replay replayed = replay(model, plan);
+    for (std::size_t k = 0; k < plan.pushes.size(); ++k) {
+      EXPECT_LE(replayed.pushes[k].position_error, 1e-6) << i;
+      EXPECT_LE(model.c * replayed.pushes[k].angle_error, 1e-6) << i;
+      if (k > 0) {
+        EXPECT_EQ(plan.pushes[k].start, plan.pushes[k - 1].end);
+      }
+    }
+  }
+  EXPECT_GE(longest, 4U);
+}
+
 }  // namespace
 }  // namespace prehensile

@@ -40,8 +40,7 @@ std::vector<Move> cheaper_by_walk(const SearchModel& search, const FlatState& st
   if (cost < worth) return moves;
   enter("cheaper walk", cost, work);
   auto walk = within_budget(work, share_of_left(work, kShareOfWalk), [&] {
-    return search_walks(search, start, goals, WalkTurns::kFew, cost, lattices, limits,
-                        work);
+    return search_walks(search, start, goals, cost, lattices, limits, work);
   });
   if (walk && cost_of(search, *walk) < cost) moves = std::move(*walk);
   if (work.meter) work.meter->found(cost_of(search, moves));

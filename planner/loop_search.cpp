@@ -20,7 +20,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Lattices that are tried: those of other walks, and then some that are not kept. These
-/// take a second, and find ways too narrow for a margin of the place.
+/// take a second each.
 constexpr std::array kFewWays = {24, 48};
 constexpr std::array<Fineness, 2> kManyWays = {{{64, 8}, {96, 5}}};
 
@@ -56,7 +56,7 @@ struct Turned {
 struct Walk {
   Steps steps;
   std::vector<Turned> turned;  ///< before each step, and at the end
-  std::size_t around = 0;  ///< steps of the loop; those before and after are so far off
+  std::size_t around = 0;  ///< steps of the loop: after so many a push comes once more
   double theta = 0.0;      ///< of the goal
   double cost = kInfinity;
 };
@@ -260,11 +260,19 @@ class LoopSearch {
   TurnWindow window_;       // of c dtheta [m]
 };
 
+/// A margin of the place closes ways that narrow.
+bool has_room_for_narrow_ways(const SearchModel& search) {
+  return search.margin.place == 0.0;
+}
+
 }  // namespace
 
-std::optional<std::vector<Move>> search_loops(
-    const SearchModel& search, const FlatState& start, const GoalPlaces& goals,
-    const GoalPlaces& beside, WalkLattices& lattices, const Limits& limits, Work& work) {
+std::optional<std::vector<Move>> search_loops(const SearchModel& search,
+                                              const FlatState& start,
+                                              const GoalPlaces& goals,
+                                              const GoalPlaces& beside,
+                                              Steepness steepness, WalkLattices& lattices,
+                                              const Limits& limits, Work& work) {
   if (!is_for_walks(search)) return std::nullopt;
   std::optional<std::vector<Move>> moves;
   const auto search_over = [&](WalkLattice& lattice) {
@@ -275,21 +283,22 @@ std::optional<std::vector<Move>> search_loops(
     moves = LoopSearch(search, lattice, start, beside, limits, work).run();
   };
   for (const int per_side : kFewWays) {
-    if (moves) break;
-    search_over(lattices.between(search, start, goals, {per_side}, Steepness::kUsual));
+    if (!moves)
+      search_over(lattices.between(search, start, goals, {per_side}, steepness));
   }
-  const auto is_near = [&](int per_side) {
-    WalkLattice& lattice = lattices.between(
-        search, start, beside.count > 0 ? beside : goals, {per_side}, Steepness::kUsual);
-    return walk_gap(lattice, limits, work) <= kNear;
+  const auto comes_near = [&] {
+    const GoalPlaces& ends = beside.count > 0 ? beside : goals;
+    WalkLattice& last =
+        lattices.between(search, start, ends, {kFewWays.back()}, steepness);
+    return walk_gap(last, limits, work) <= kNear;
   };
-  if (!moves && (search.margin.place > 0.0 || !is_near(kFewWays.back()))) {
-    return std::nullopt;
-  }
-  for (const Fineness& fineness : kManyWays) {
-    if (moves) break;
-    WalkLattice lattice(search, start, goals, fineness, Steepness::kUsual);
-    search_over(lattice);
+  if (!moves && steepness == Steepness::kUsual && has_room_for_narrow_ways(search) &&
+      comes_near()) {
+    for (const Fineness& fineness : kManyWays) {
+      if (moves) break;
+      WalkLattice lattice(search, start, goals, fineness, steepness);
+      search_over(lattice);
+    }
   }
   if (!moves) return std::nullopt;
   return within_budget(work, share_of_left(work, kShareOfShortening), [&] {

@@ -19,9 +19,12 @@ namespace prehensile {
 
 /// Pushes to one of the goals, or where there are none to one of those beside them,
 /// shortened; each sticks with the real pads. For the same scenes as search_walks, over
-/// lattices of the same and others of more ways.
-std::optional<std::vector<Move>> search_loops(
-    const SearchModel& search, const FlatState& start, const GoalPlaces& goals,
-    const GoalPlaces& beside, WalkLattices& lattices, const Limits& limits, Work& work);
+/// lattices of the same and, of the usual steepness, others of more ways.
+std::optional<std::vector<Move>> search_loops(const SearchModel& search,
+                                              const FlatState& start,
+                                              const GoalPlaces& goals,
+                                              const GoalPlaces& beside,
+                                              Steepness steepness, WalkLattices& lattices,
+                                              const Limits& limits, Work& work);
 
 }  // namespace prehensile

@@ -166,18 +166,13 @@ class Follower {
   const Grasp& at() const { return at_; }
   void go_back(const Grasp& grasp) { at_ = grasp; }
 
-  /// Where a push that begins there ends. False, and at its planned end, if it does not
-  /// get there nearly.
+  /// Goes on to where a push that begins there ends; to its planned end, and false, if it
+  /// does not get to an end.
   bool follow(const PlannedPush& planned) {
     const Transition done = apply(model_, at_, planned.push, half_);
     instants_ += done.instants;
-    const PlanarPose& end = done.end.X_HO;
-    const PlanarPose& wanted = planned.end.X_HO;
-    const Vec3 missed(end.x - wanted.x, end.y - wanted.y,
-                      model_.c * (end.theta - wanted.theta));
-    const bool arrives = done.completed() && missed.norm() <= kSteady;
-    at_ = arrives ? done.end : planned.end;
-    return arrives;
+    at_ = done.completed() ? done.end : planned.end;
+    return done.completed();
   }
 
  private:
@@ -235,8 +230,8 @@ void meet_ends(const Model& model, const TransitionOptions& options, Plan& plan)
     follower.follow(pushes.back());
     pushes.back().end = follower.at();
   }
-  if (!pushes.empty()) pushes.back().end = plan.pushes.back().end;
   plan.pushes = std::move(pushes);
+  plan.goal = plan.pushes.back().end;
 }
 
 }  // namespace prehensile

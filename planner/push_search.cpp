@@ -95,13 +95,13 @@ bool plan_with_real_pads(const SearchModel& search, const FlatState& from,
   if (!moves && beside) {
     worth_walk = kWorthWalkOfLoops;
     moves = within_budget(work, share_of_left(work, kShareOfLoops), [&] {
-      return search_loops(search, from, goals, *beside, lattices, limits, work);
+      return search_loops(search, from, goals, *beside, Steepness::kUsual, lattices,
+                          limits, work);
     });
   }
   const bool is_walk = !moves;
   if (is_walk) {
-    moves = search_walks(search, from, goals, WalkTurns::kFew, kInfinity, lattices,
-                         limits, work);
+    moves = search_walks(search, from, goals, kInfinity, lattices, limits, work);
   }
   if (!moves) return false;
   moves = cheaper_by_pairs(search, std::move(*moves), limits, work);
@@ -180,25 +180,18 @@ bool plan_beside_goal(const SearchModel& search, const Grasp& start, const Goal&
                              plan);
 }
 
-/// Walks that wind the object up: to the goal with half of the work, then beside it.
-bool plan_by_many_turns(const SearchModel& search, const Grasp& start, const Goal& goal,
-                        WalkLattices& lattices, const Limits& limits, Work& work,
-                        Plan& plan) {
+/// Loops once more, of pushes that turn the object more for their way.
+bool plan_by_steep_loops(const SearchModel& search, const Grasp& start, const Goal& goal,
+                         WalkLattices& lattices, const Limits& limits, Work& work,
+                         Plan& plan) {
   const FlatState from = flat_state(start);
-  const auto walk_to = [&](const GoalPlaces& places, std::int64_t budget) {
-    const auto moves = within_budget(work, budget, [&] {
-      return search_walks(search, from, places, WalkTurns::kMany, kInfinity, lattices,
-                          limits, work);
-    });
-    if (!moves) return false;
-    const auto cheaper = cheaper_by_pairs(search, *moves, limits, work);
-    for (const Move& move : cheaper) append_move(search, move, plan);
-    return true;
-  };
-  const std::int64_t left = work.budget - work.done();
-  if (walk_to(goal_places(*search.model, goal, from), left / 2)) return true;
-  const GoalPlaces beside = tolerated_places(*search.model, goal, from);
-  return beside.count > 0 && walk_to(beside, work.budget - work.done());
+  auto moves = search_loops(search, from, goal_places(*search.model, goal, from),
+                            tolerated_places(*search.model, goal, from),
+                            Steepness::kSteep, lattices, limits, work);
+  if (!moves) return false;
+  moves = cheaper_by_pairs(search, std::move(*moves), limits, work);
+  for (const Move& move : *moves) append_move(search, move, plan);
+  return true;
 }
 
 /// A baseline with work of its own.
@@ -227,12 +220,12 @@ void say_undecided(const Limits& limits, Plan& plan) {
             "smaller margin may admit one";
 }
 
-/// Of the budget, for walks of many turns.
-constexpr double kShareOfManyTurns = 0.1;
+/// Of the budget, for steep loops.
+constexpr double kShareOfSteepLoops = 0.1;
 
 /// The exact stages with their share of the budget, then the fallback with its own, with
-/// what is left the places beside a goal that no way leads to, and then walks of many
-/// turns with theirs.
+/// what is left the places beside a goal that no way leads to, and then steep loops with
+/// theirs.
 bool plan_in_shares(const SearchModel& search, const Grasp& start, const Goal& goal,
                     const PlanOptions& options, Work& work, Plan& plan) {
   const Limits limits(options, work);
@@ -242,9 +235,9 @@ bool plan_in_shares(const SearchModel& search, const Grasp& start, const Goal& g
       search.model->scene.obstacles ? "fallback_share_obstacles" : "fallback_share");
   const std::int64_t whole = work.budget;
   const std::int64_t of_fallback = share_of_left(work, share);
-  const std::int64_t of_turns =
-      search.model->scene.obstacles ? 0 : share_of_left(work, kShareOfManyTurns);
-  work.budget = whole - of_fallback - of_turns;
+  const std::int64_t of_steep =
+      search.model->scene.obstacles ? 0 : share_of_left(work, kShareOfSteepLoops);
+  work.budget = whole - of_fallback - of_steep;
   const bool exact = plan_in_plane(search, start, goal, lattices, limits, work, plan);
   work.budget = whole;
   if (exact || limits.reached() || search.contacts.empty()) return exact;
@@ -252,12 +245,12 @@ bool plan_in_shares(const SearchModel& search, const Grasp& start, const Goal& g
     return true;
   }
   if (work.meter) work.meter->enter("beside the goal");
-  work.budget = whole - of_turns;
+  work.budget = whole - of_steep;
   const bool beside = plan_beside_goal(search, start, goal, lattices, limits, work, plan);
   work.budget = whole;
   if (beside) return true;
-  if (work.meter) work.meter->enter("many turns");
-  return plan_by_many_turns(search, start, goal, lattices, limits, work, plan);
+  if (work.meter) work.meter->enter("steep loops");
+  return plan_by_steep_loops(search, start, goal, lattices, limits, work, plan);
 }
 
 bool rolls_on_way(const SearchModel& search, Plan plan, double dpsi,

@@ -23,10 +23,8 @@ constexpr int kFinestNodesPerSide = 96;
 constexpr int kMostStates = 20'000;  // nodes x contacts of a lattice
 
 /// Turns to either side [rad], and the buckets that tell them apart.
-constexpr double kFewTurns = 15.0;
-constexpr double kManyTurns = 150.0;
-constexpr int kBucketsOfFew = 400;
-constexpr int kBucketsOfMany = 1000;
+constexpr double kMostTurn = 15.0;
+constexpr int kBuckets = 400;
 
 constexpr std::size_t kMostLabels = 400'000;
 
@@ -105,8 +103,7 @@ struct WalkEnd {
 class WalkSearch {
  public:
   WalkSearch(const SearchModel& search, WalkLattice& lattice, const FlatState& start,
-             const GoalPlaces& goals, WalkTurns turns, double to_beat,
-             const Limits& limits, Work& work)
+             const GoalPlaces& goals, double to_beat, const Limits& limits, Work& work)
       : search_(search),
         lattice_(lattice),
         start_(start),
@@ -115,12 +112,10 @@ class WalkSearch {
         limits_(limits),
         work_(work),
         c_(search.model->c),
-        most_turn_(turns == WalkTurns::kFew ? kFewTurns : kManyTurns),
-        buckets_(turns == WalkTurns::kFew ? kBucketsOfFew : kBucketsOfMany),
         rest_(lattice, static_cast<int>(search.contacts.size()), limits, work) {
     const TurnWindow window = turns_from(search, start.theta);
-    window_ = {c_ * std::max(window.low, -most_turn_),
-               c_ * std::min(window.high, most_turn_)};
+    window_ = {c_ * std::max(window.low, -kMostTurn),
+               c_ * std::min(window.high, kMostTurn)};
     kept_.resize(static_cast<std::size_t>(lattice.nodes()));
   }
 
@@ -175,8 +170,8 @@ class WalkSearch {
 
   std::pair<int, int> buckets_of(const Label& label) const {
     const auto bucket = [&](double c_theta) {
-      const double share = 0.5 * (c_theta / (c_ * most_turn_) + 1.0);
-      return std::clamp(static_cast<int>(share * buckets_), 0, buckets_ - 1);
+      const double share = 0.5 * (c_theta / (c_ * kMostTurn) + 1.0);
+      return std::clamp(static_cast<int>(share * kBuckets), 0, kBuckets - 1);
     };
     return {bucket(label.lo), bucket(label.hi)};
   }
@@ -196,7 +191,7 @@ class WalkSearch {
     work_.other += buckets_compared_ / kBucketsPerTest;
     buckets_compared_ %= kBucketsPerTest;
     Kept& kept = kept_[label.node];
-    kept.make_room(buckets_);
+    kept.make_room(kBuckets);
     const int index = static_cast<int>(labels_.size());
     if (!kept.put(index, static_cast<float>(label.cost), low, high)) return;
     queue_.push({estimate, index});
@@ -253,9 +248,7 @@ class WalkSearch {
   const double to_beat_;
   const Limits& limits_;
   Work& work_;
-  const double c_;          // [m]
-  const double most_turn_;  // [rad]
-  const int buckets_;
+  const double c_;     // [m]
   TurnWindow window_;  // of c dtheta [m]
   WalkRest rest_;
   int buckets_compared_ = 0;  // and not yet counted as work
@@ -264,12 +257,10 @@ class WalkSearch {
   std::priority_queue<QueueEntry> queue_;
 };
 
-/// The finest lattice takes seconds, and finds ways too narrow for a margin; of many
-/// turns only over pads alike at every angle, of which fewer are looked at.
-std::vector<int> nodes_per_side(const SearchModel& search, WalkTurns turns) {
+/// The finest lattice takes seconds, and finds ways too narrow for a margin.
+std::vector<int> nodes_per_side(const SearchModel& search) {
   std::vector<int> nodes(kNodesPerSide.begin(), kNodesPerSide.end());
-  const bool quick = turns == WalkTurns::kFew || search.model->region.is_isotropic();
-  if (search.margin.is_none() && quick) nodes.push_back(kFinestNodesPerSide);
+  if (search.margin.is_none()) nodes.push_back(kFinestNodesPerSide);
   return nodes;
 }
 
@@ -285,18 +276,17 @@ bool is_for_walks(const SearchModel& search) {
 
 std::optional<std::vector<Move>> search_walks(const SearchModel& search,
                                               const FlatState& start,
-                                              const GoalPlaces& goals, WalkTurns turns,
-                                              double to_beat, WalkLattices& lattices,
+                                              const GoalPlaces& goals, double to_beat,
+                                              WalkLattices& lattices,
                                               const Limits& limits, Work& work) {
   if (!is_for_walks(search)) return std::nullopt;
-  const Steepness steepness =
-      turns == WalkTurns::kFew ? Steepness::kUsual : Steepness::kSteep;
-  for (const int per_side : nodes_per_side(search, turns)) {
-    WalkLattice& lattice = lattices.between(search, start, goals, {per_side}, steepness);
+  for (const int per_side : nodes_per_side(search)) {
+    WalkLattice& lattice =
+        lattices.between(search, start, goals, {per_side}, Steepness::kUsual);
     const auto contacts = static_cast<int>(search.contacts.size());
     if (lattice.nodes() * contacts > kMostStates) break;
     const auto moves =
-        WalkSearch(search, lattice, start, goals, turns, to_beat, limits, work).run();
+        WalkSearch(search, lattice, start, goals, to_beat, limits, work).run();
     if (moves) return shortened(search, joined_moves(search, *moves), limits, work);
   }
   return std::nullopt;

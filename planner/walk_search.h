@@ -4,7 +4,8 @@
 /// dozens of pushes may be needed; and where the face clips the pads, the pushes that
 /// help are not those of the closed form. Both are known to this search: it goes from
 /// node to node of a fine lattice of places by what sticks with the pads as they are
-/// there (place_law.h), and carries intervals of the angle as search_labels does.
+/// there (place_law.h), and carries intervals of the angle, up to 15 rad to either side,
+/// as search_labels does.
 #pragma once
 
 #include <optional>
@@ -16,12 +17,6 @@
 
 namespace prehensile {
 
-/// How much a walk may turn the object.
-enum class WalkTurns {
-  kFew,   ///< by up to 15 rad either way, and no push by more than 10 rad per c of way
-  kMany,  ///< by up to 150 rad, and 40 rad per c: many more pushes are looked at
-};
-
 /// False among obstacles, and for pads that need the mechanics in space.
 bool is_for_walks(const SearchModel& search);
 
@@ -32,8 +27,8 @@ bool is_for_walks(const SearchModel& search);
 /// search.
 std::optional<std::vector<Move>> search_walks(const SearchModel& search,
                                               const FlatState& start,
-                                              const GoalPlaces& goals, WalkTurns turns,
-                                              double to_beat, WalkLattices& lattices,
+                                              const GoalPlaces& goals, double to_beat,
+                                              WalkLattices& lattices,
                                               const Limits& limits, Work& work);
 
 }  // namespace prehensile

@@ -36,9 +36,9 @@ Found loop_in(const SearchModel& search, std::int64_t budget = kBudget) {
   const Goal& goal = *model.scene.goal;
   WalkLattices lattices;
   Found found;
-  found.moves =
-      search_loops(search, start, goal_places(model, goal, start),
-                   tolerated_places(model, goal, start), lattices, limits, work);
+  found.moves = search_loops(search, start, goal_places(model, goal, start),
+                             tolerated_places(model, goal, start), Steepness::kUsual,
+                             lattices, limits, work);
   found.work = work.done();
   return found;
 }

@@ -296,7 +296,7 @@ std::optional<std::vector<Move>> search_loops(const SearchModel& search,
       comes_near()) {
     for (const Fineness& fineness : kManyWays) {
       if (moves) break;
-      WalkLattice lattice(search, start, goals, fineness, steepness);
+      WalkLattice lattice(search, start, goals, fineness, Steepness::kUsualFinely);
       search_over(lattice);
     }
   }

@@ -15,7 +15,7 @@ constexpr double kMostKappa = 10.0;
 constexpr double kMostKappaIfSteep = 40.0;
 constexpr int kSlopesOfWhole = 181;
 constexpr int kSlopesOfClipped = 61;
-constexpr int kSteepSlopesOfClipped = 121;
+constexpr int kMoreSlopesOfClipped = 121;
 
 /// Every so many slopes it is looked at first whether those up to the next are hopeless:
 /// an inequality lacks so much at both, over F or F c.
@@ -94,13 +94,20 @@ std::span<const DirectedDrag::Slope> DirectedDrag::slopes_for(const PadsAtPlace&
                                                               Steepness steepness) {
   static const auto whole = slopes_up_to(kMostKappa, kSlopesOfWhole);
   static const auto clipped = slopes_up_to(kMostKappa, kSlopesOfClipped);
+  static const auto more_of_clipped = slopes_up_to(kMostKappa, kMoreSlopesOfClipped);
   static const auto steep_of_whole = slopes_up_to(kMostKappaIfSteep, kSlopesOfWhole);
   static const auto steep_of_clipped =
-      slopes_up_to(kMostKappaIfSteep, kSteepSlopesOfClipped);
-  if (steepness == Steepness::kSteep) {
-    return pads.are_whole() ? steep_of_whole : steep_of_clipped;
+      slopes_up_to(kMostKappaIfSteep, kMoreSlopesOfClipped);
+  const bool are_whole = pads.are_whole();
+  switch (steepness) {
+    case Steepness::kSteep:
+      return are_whole ? steep_of_whole : steep_of_clipped;
+    case Steepness::kUsualFinely:
+      return are_whole ? whole : more_of_clipped;
+    case Steepness::kUsual:
+      break;
   }
-  return pads.are_whole() ? whole : clipped;
+  return are_whole ? whole : clipped;
 }
 
 DirectedDrag::Sample DirectedDrag::sample(std::size_t slope, std::size_t angle) noexcept {

@@ -53,8 +53,9 @@ class PadsAtPlace {
 
 /// The kappas that are looked at.
 enum class Steepness {
-  kUsual,  ///< up to 10
-  kSteep,  ///< up to 40; of clipped pads more are looked at
+  kUsual,        ///< up to 10
+  kUsualFinely,  ///< the same, of clipped pads twice as many
+  kSteep,        ///< up to 40, of clipped pads as many
 };
 
 /// Friction of such pads over F, and over F c, for motions in one direction: found where

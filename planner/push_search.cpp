@@ -78,7 +78,7 @@ std::optional<std::vector<Move>> search_with_real_pads(const SearchModel& search
 }
 
 /// Of what is left of the budget, for walks around one loop.
-constexpr double kShareOfLoops = 0.4;
+constexpr double kShareOfLoops = 0.7;
 
 /// J from which one of these is looked at by cheaper_by_walk.
 constexpr double kWorthWalkOfLoops = 3.0;

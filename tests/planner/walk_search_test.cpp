@@ -32,7 +32,8 @@ std::optional<std::vector<Move>> walk_in(const SearchModel& search,
   const FlatState start = flat_state(search.model->scene.start);
   const GoalPlaces goals = goal_places(*search.model, *search.model->scene.goal, start);
   WalkLattices lattices;
-  return search_walks(search, start, goals, std::numeric_limits<double>::infinity(), lattices, limits, work);
+  return search_walks(search, start, goals, std::numeric_limits<double>::infinity(),
+                      lattices, limits, work);
 }
 
 /// Walks from the start to the goal by pushes that the exact mechanics does, too; the

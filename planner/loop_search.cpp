@@ -283,14 +283,14 @@ std::optional<std::vector<Move>> search_loops(const SearchModel& search,
     moves = LoopSearch(search, lattice, start, beside, limits, work).run();
   };
   for (const int per_side : kFewWays) {
-    if (!moves)
-      search_over(lattices.between(search, start, goals, {per_side}, steepness));
+    if (moves) break;
+    search_over(lattices.between(search, start, goals, {per_side}, steepness));
   }
   const auto comes_near = [&] {
     const GoalPlaces& ends = beside.count > 0 ? beside : goals;
     WalkLattice& last =
         lattices.between(search, start, ends, {kFewWays.back()}, steepness);
-    return walk_gap(last, limits, work) <= kNear;
+    return last.slopes() <= kMostSlopes && walk_gap(last, limits, work) <= kNear;
   };
   if (!moves && steepness == Steepness::kUsual && has_room_for_narrow_ways(search) &&
       comes_near()) {

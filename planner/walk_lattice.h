@@ -24,9 +24,9 @@ struct WalkEdge {
 
 /// How fine a lattice is.
 struct Fineness {
-  int per_side;  ///< nodes over the longer side of the object
-  int stride =
-      3;  ///< rows and columns that a push goes, at most: the more, the more ways
+  int per_side;    ///< nodes over the longer side of the object
+  int stride = 3;  ///< rows and columns that a push goes, at most: the more, the finer
+                   ///< are its headings
   auto operator<=>(const Fineness&) const = default;
 };
 

@@ -1,0 +1,62 @@
+#include "planner/walk_gap.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "planner/walk_rest.h"
+#include "tests/planner/random_search.h"
+
+namespace prehensile {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Case : testing::RandomSearch {
+  explicit Case(std::uint64_t index, std::int64_t budget = 50'000'000)
+      : RandomSearch(index),
+        work{.budget = budget},
+        limits(options, work),
+        lattice(search, start, goals, {16}, Steepness::kUsual) {}
+
+  PlanOptions options;
+  Work work;
+  Limits limits;
+  WalkLattice lattice;
+};
+
+/// Nothing where a walk leads to a goal, and no more than from the start to the nearest
+/// goal elsewhere.
+TEST(WalkGap, IsNothingWhereAWalkLeadsToAGoal) {
+  int walks = 0;
+  int gaps = 0;
+  for (std::uint64_t i = 0; i < 24; ++i) {
+    Case c(i);
+    const auto contacts = static_cast<int>(c.search.contacts.size());
+    const WalkRest rest(c.lattice, contacts, c.limits, c.work);
+    const double gap = walk_gap(c.lattice, c.limits, c.work);
+    if (rest.after(c.lattice.start(), -1) < kInfinity) {
+      ++walks;
+      EXPECT_EQ(gap, 0.0) << i;
+      continue;
+    }
+    ++gaps;
+    EXPECT_GT(gap, 0.0) << i;
+    double nearest = kInfinity;
+    for (int k = 0; k < c.goals.count; ++k) {
+      nearest = std::min(nearest, (c.goals.places[k].p_OF - c.start.p_OF).norm());
+    }
+    EXPECT_LE(gap, nearest / c.lattice.spacing() + 1e-9) << i;
+  }
+  EXPECT_GE(walks, 5);
+  EXPECT_GE(gaps, 5);
+}
+
+TEST(WalkGap, IsInfiniteWhereABudgetEnds) {
+  Case c(0, 1);
+  EXPECT_EQ(walk_gap(c.lattice, c.limits, c.work), kInfinity);
+}
+
+}  // namespace
+}  // namespace prehensile

@@ -106,7 +106,8 @@ class LoopSearch {
       const auto joint = std::ranges::min_element(loop->states, {}, by_cost);
       if (ways.cost_over(*joint) == kInfinity) continue;
       Steps around = loop->steps;
-      std::ranges::rotate(around, around.begin() + (joint - loop->states.begin()));
+      std::rotate(around.begin(), around.begin() + (joint - loop->states.begin()),
+                  around.end());
       Walk walk = walk_around(ways.way_to(*joint), around, ways.way_on_from(*joint));
       if (walk.cost < best.cost) best = std::move(walk);
     }

@@ -230,6 +230,7 @@ void meet_ends(const Model& model, const TransitionOptions& options, Plan& plan)
     follower.follow(pushes.back());
     pushes.back().end = follower.at();
   }
+  if (is_aimed(plan.pushes.back())) pushes.back().end = plan.pushes.back().end;
   plan.pushes = std::move(pushes);
   plan.goal = plan.pushes.back().end;
 }

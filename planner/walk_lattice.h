@@ -3,9 +3,9 @@
 #pragma once
 
 #include <array>
-#include <compare>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -27,7 +27,9 @@ struct Fineness {
   int per_side;    ///< nodes over the longer side of the object
   int stride = 3;  ///< rows and columns that a push goes, at most: the more, the finer
                    ///< are its headings
-  auto operator<=>(const Fineness&) const = default;
+  bool operator<(const Fineness& other) const {
+    return std::tie(per_side, stride) < std::tie(other.per_side, other.stride);
+  }
 };
 
 class WalkLattice {

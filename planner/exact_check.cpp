@@ -8,7 +8,6 @@
 #include "planner/confines_check.h"
 #include "planner/meet_end.h"
 #include "planner/point_margin.h"
-#include "planner/replay.h"
 #include "planner/ring_pads.h"
 #include "planner/roll_step.h"
 #include "planner/space_margin.h"
@@ -191,49 +190,17 @@ bool stays_on_object(const Model& model, const Plan& plan, std::string* why) {
 
 namespace {
 
-/// The same push looked at twice as closely, as a replay does: a second motion may be
-/// possible at a few places only.
+/// A push looked at twice as closely, as a replay does, from where the one before so
+/// ended: a second motion may be possible at a few places only, and of pushes by points
+/// what an end misses may grow in the next.
 std::string fault_at_half_step(const Model& model, const PlannedPush& push,
-                               const TransitionOptions& options, Plan& plan) {
+                               const TransitionOptions& options, Grasp& at, Plan& plan) {
   TransitionOptions half = options;
   half.max_step = 0.5 * options.max_step;
-  const Transition done = apply(model, push.start, push.push, half);
+  const Transition done = apply(model, at, push.push, half);
   plan.instants += done.instants;
+  at = done.end;
   return fault_of(model, push, done, half);
-}
-
-/// Of pushes by points, each from where the one before ends at half the step: a push
-/// whose end depends much on its start carries what that misses on. Within half of what a
-/// replay allows.
-std::string fault_of_whole(const Model& model, const TransitionOptions& options,
-                           Plan& plan) {
-  constexpr double kShare = 0.5;
-  const ReplayOptions replayed;
-  TransitionOptions half = options;
-  half.max_step = 0.5 * options.max_step;
-  Grasp at = plan.start;
-  for (std::size_t i = 0; i < plan.pushes.size(); ++i) {
-    const Transition done = apply(model, at, plan.pushes[i].push, half);
-    plan.instants += done.instants;
-    at = done.end;
-    const PlanarPose& planned = plan.pushes[i].end.X_HO;
-    const double missed = std::hypot(at.X_HO.x - planned.x, at.X_HO.y - planned.y);
-    const double turned = std::abs(at.X_HO.theta - planned.theta);
-    if (done.completed() && missed <= kShare * replayed.position_tolerance &&
-        turned <= kShare * replayed.angle_tolerance) {
-      continue;
-    }
-    return "push " + std::to_string(i + 1) + ": after those before it the object ends " +
-           "elsewhere";
-  }
-  return {};
-}
-
-bool is_by_points(const Model& model, const Plan& plan) {
-  const auto count = std::ranges::count_if(plan.pushes, [&](const PlannedPush& push) {
-    return is_by_point(model, push.push);
-  });
-  return count > 1;
 }
 
 }  // namespace
@@ -241,6 +208,7 @@ bool is_by_points(const Model& model, const Plan& plan) {
 bool check_exactly(const Model& model, const TransitionOptions& options, Plan& plan,
                    std::string* why) {
   double travelled = 0.0;
+  Grasp at = plan.pushes.empty() ? plan.start : plan.pushes.front().start;
   for (std::size_t i = 0; i < plan.pushes.size(); ++i) {
     PlannedPush& push = plan.pushes[i];
     const Transition done = apply(model, push.start, push.push, options);
@@ -252,7 +220,7 @@ bool check_exactly(const Model& model, const TransitionOptions& options, Plan& p
         push_slack(model, push.start, push.push, carried(plan.margin, travelled));
     travelled += travel_in_pad_plane(push.push);
     std::string fault = fault_of(model, push, done, options);
-    if (fault.empty()) fault = fault_at_half_step(model, push, options, plan);
+    if (fault.empty()) fault = fault_at_half_step(model, push, options, at, plan);
     if (fault.empty()) fault = space_margin_fault(model, push, plan.margin, options);
     if (fault.empty()) continue;
     if (why) *why = "push " + std::to_string(i + 1) + ": " + fault;
@@ -260,9 +228,6 @@ bool check_exactly(const Model& model, const TransitionOptions& options, Plan& p
   }
   std::string fault = confinement_fault(model, plan.pushes);
   if (fault.empty()) fault = point_margin_fault(model, plan, options);
-  if (fault.empty() && is_by_points(model, plan)) {
-    fault = fault_of_whole(model, options, plan);
-  }
   if (!fault.empty()) {
     if (why) *why = fault;
     return false;

@@ -31,9 +31,8 @@ double travel_in_pad_plane(const Push& push);
 /// Fills force, slack, certificate and error estimate of every push and counts instants.
 /// True if each push completes without slip, certified, with slack >= 0 over plan.margin,
 /// and ends within 1e-6 of where the plan says ([m] and [rad]; where a point pushes, [m]
-/// with angles weighing c), also at half the step, within limits and
-/// clear of obstacles, and pushes by points done one after the other stay together with
-/// the plan; else `why` names the first that does not.
+/// with angles weighing c), within limits and clear of obstacles; also at half the step,
+/// one push after the other; else `why` names the first that does not.
 bool check_exactly(const Model& model, const TransitionOptions& options, Plan& plan,
                    std::string* why);
 

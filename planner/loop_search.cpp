@@ -13,6 +13,7 @@
 #include "planner/turning_loop.h"
 #include "planner/walk_gap.h"
 #include "planner/walk_search.h"
+#include "planner/walk_turns.h"
 
 namespace prehensile {
 namespace {
@@ -47,11 +48,6 @@ constexpr double kSameTurn = 1e-12;
 constexpr double kShareOfShortening = 0.3;
 
 using Steps = std::vector<WalkStep>;
-
-/// c dtheta that has been produced [m].
-struct Turned {
-  double lo = 0.0, hi = 0.0;
-};
 
 struct Walk {
   Steps steps;
@@ -146,10 +142,7 @@ class LoopSearch {
   /// limits.
   bool follow(const Steps& steps, std::vector<Turned>& turned) {
     for (const WalkStep& step : steps) {
-      const WalkEdge& pushed = edge(step);
-      const Turned& before = turned.back();
-      const Turned after{std::max(before.lo + pushed.lo, window_.low),
-                         std::min(before.hi + pushed.hi, window_.high)};
+      const Turned after = turned_after(turned.back(), edge(step), window_);
       if (after.lo > after.hi) return false;
       turned.push_back(after);
     }
@@ -179,18 +172,12 @@ class LoopSearch {
     std::vector<Move> moves(walk.steps.size());
     double turned = c_ * (walk.theta - start_.theta);
     for (std::size_t i = walk.steps.size(); i-- > 0;) {
-      const Turned& before = walk.turned[i];
-      const Turned& after = walk.turned[i + 1];
       const WalkEdge& pushed = edge(walk.steps[i]);
-      const double share =
-          after.hi > after.lo ? (turned - after.lo) / (after.hi - after.lo) : 0.5;
-      const double low = std::max(before.lo, turned - pushed.hi);
-      const double high = std::max(low, std::min(before.hi, turned - pushed.lo));
-      const double turned_before =
-          std::clamp(std::lerp(before.lo, before.hi, share), low, high);
-      moves[i] = {pushed.contact, state(walk.steps[i].node, turned_before),
+      const double before =
+          turned_before(walk.turned[i], pushed, walk.turned[i + 1], turned);
+      moves[i] = {pushed.contact, state(walk.steps[i].node, before),
                   state(pushed.to, turned)};
-      turned = turned_before;
+      turned = before;
     }
     return moves;
   }

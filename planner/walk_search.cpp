@@ -12,6 +12,7 @@
 #include "planner/shorten.h"
 #include "planner/walk_lattice.h"
 #include "planner/walk_rest.h"
+#include "planner/walk_turns.h"
 
 namespace prehensile {
 namespace {
@@ -43,7 +44,7 @@ constexpr double kShareOfTurns = 0.5;
 constexpr float kFar = std::numeric_limits<float>::infinity();
 
 struct Label {
-  double lo = 0.0, hi = 0.0;  ///< c dtheta produced so far [m]
+  Turned turned;  ///< so far
   double cost = 0.0;
   int node = -1, contact = -1;
   int parent = -1, edge = -1;  ///< the label before, and the edge of its node
@@ -149,8 +150,8 @@ class WalkSearch {
     const int index = lattice_.goal_at(label.node);
     if (index < 0) return std::nullopt;
     const GoalPlace& goal = goals_.places[static_cast<std::size_t>(index)];
-    return angle_between(*search_.model, goal, start_.theta + label.lo / c_,
-                         start_.theta + label.hi / c_);
+    return angle_between(*search_.model, goal, start_.theta + label.turned.lo / c_,
+                         start_.theta + label.turned.hi / c_);
   }
 
   void expand(int index) {
@@ -159,11 +160,10 @@ class WalkSearch {
     work_.other += 1 + static_cast<std::int64_t>(edges.size()) / kEdgesPerTest;
     for (std::size_t i = 0; i < edges.size(); ++i) {
       const WalkEdge& edge = edges[i];
-      const double lo = std::max(label.lo + edge.lo, window_.low);
-      const double hi = std::min(label.hi + edge.hi, window_.high);
-      if (lo > hi || edge.lo > edge.hi) continue;
+      const Turned turned = turned_after(label.turned, edge, window_);
+      if (turned.lo > turned.hi || edge.lo > edge.hi) continue;
       const double placed = edge.contact != label.contact ? 1.0 : 0.0;
-      offer({lo, hi, label.cost + edge.cost + placed, edge.to, edge.contact, index,
+      offer({turned, label.cost + edge.cost + placed, edge.to, edge.contact, index,
              static_cast<int>(i)});
     }
   }
@@ -173,7 +173,7 @@ class WalkSearch {
       const double share = 0.5 * (c_theta / (c_ * kMostTurn) + 1.0);
       return std::clamp(static_cast<int>(share * kBuckets), 0, kBuckets - 1);
     };
-    return {bucket(label.lo), bucket(label.hi)};
+    return {bucket(label.turned.lo), bucket(label.turned.hi)};
   }
 
   bool is_alive(int index) const {
@@ -208,19 +208,15 @@ class WalkSearch {
       const Label& label = labels_[i];
       const Label& before = labels_[label.parent];
       const WalkEdge& edge = lattice_.edges_from(before.node, work_)[label.edge];
-      const double share =
-          label.hi > label.lo ? (turned - label.lo) / (label.hi - label.lo) : 0.5;
-      const double low = std::max(before.lo, turned - edge.hi);
-      const double high = std::max(low, std::min(before.hi, turned - edge.lo));
-      const double turned_before =
-          std::clamp(std::lerp(before.lo, before.hi, share), low, high);
+      const double turned_by_then =
+          turned_before(before.turned, edge, label.turned, turned);
       moves.push_back(
-          {edge.contact, state(before.node, turned_before), state(label.node, turned)});
+          {edge.contact, state(before.node, turned_by_then), state(label.node, turned)});
       if (!move_passes(search_, moves.back(), work_)) {
-        cut(before.node, label.edge, edge, turned - turned_before);
+        cut(before.node, label.edge, edge, turned - turned_by_then);
         all_stick = false;
       }
-      turned = turned_before;
+      turned = turned_by_then;
     }
     if (!all_stick) return {};
     std::ranges::reverse(moves);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "planner/goal.h"
+#include "planner/limits.h"
+#include "planner/walk_lattice.h"
 #include "problems/random_fixtures.h"
 
 namespace prehensile::testing {
@@ -26,6 +28,22 @@ struct RandomSearch {
   SearchModel search;
   FlatState start;
   GoalPlaces goals;
+};
+
+/// The same with a lattice of walks over the object.
+struct RandomLattice : RandomSearch {
+  explicit RandomLattice(std::uint64_t index, std::int64_t budget = 50'000'000)
+      : RandomSearch(index),
+        work{.budget = budget},
+        limits(options, work),
+        lattice(search, start, goals, {16}, Steepness::kUsual),
+        contacts(static_cast<int>(search.contacts.size())) {}
+
+  PlanOptions options;
+  Work work;
+  Limits limits;
+  WalkLattice lattice;
+  int contacts;
 };
 
 }  // namespace prehensile::testing

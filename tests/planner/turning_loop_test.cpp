@@ -14,14 +14,11 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A lattice over a random problem and the ways over it.
-struct Case : testing::RandomSearch {
+struct Case : testing::RandomLattice {
   explicit Case(std::uint64_t index)
-      : RandomSearch(index),
-        work{.budget = 50'000'000},
-        limits(options, work),
-        lattice(search, start, goals, {16}, Steepness::kUsual),
-        states(lattice, static_cast<int>(search.contacts.size())),
-        rest(lattice, states.contacts(), limits, work) {}
+      : RandomLattice(index),
+        states(lattice, contacts),
+        rest(lattice, contacts, limits, work) {}
 
   const WalkEdge& edge(const WalkStep& step) {
     return lattice.edges_from(step.node, work)[step.edge];
@@ -58,10 +55,6 @@ struct Case : testing::RandomSearch {
     return grows;
   }
 
-  PlanOptions options;
-  Work work;
-  Limits limits;
-  WalkLattice lattice;
   WalkStates states;
   WalkRest rest;
 };

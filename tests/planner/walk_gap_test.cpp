@@ -11,20 +11,9 @@
 namespace prehensile {
 namespace {
 
+using testing::RandomLattice;
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-struct Case : testing::RandomSearch {
-  explicit Case(std::uint64_t index, std::int64_t budget = 50'000'000)
-      : RandomSearch(index),
-        work{.budget = budget},
-        limits(options, work),
-        lattice(search, start, goals, {16}, Steepness::kUsual) {}
-
-  PlanOptions options;
-  Work work;
-  Limits limits;
-  WalkLattice lattice;
-};
 
 /// Nothing where a walk leads to a goal, and no more than from the start to the nearest
 /// goal elsewhere.
@@ -32,9 +21,8 @@ TEST(WalkGap, IsNothingWhereAWalkLeadsToAGoal) {
   int walks = 0;
   int gaps = 0;
   for (std::uint64_t i = 0; i < 24; ++i) {
-    Case c(i);
-    const auto contacts = static_cast<int>(c.search.contacts.size());
-    const WalkRest rest(c.lattice, contacts, c.limits, c.work);
+    RandomLattice c(i);
+    const WalkRest rest(c.lattice, c.contacts, c.limits, c.work);
     const double gap = walk_gap(c.lattice, c.limits, c.work);
     if (rest.after(c.lattice.start(), -1) < kInfinity) {
       ++walks;
@@ -54,7 +42,7 @@ TEST(WalkGap, IsNothingWhereAWalkLeadsToAGoal) {
 }
 
 TEST(WalkGap, IsInfiniteWhereABudgetEnds) {
-  Case c(0, 1);
+  RandomLattice c(0, 1);
   EXPECT_EQ(walk_gap(c.lattice, c.limits, c.work), kInfinity);
 }
 

@@ -13,13 +13,9 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A lattice over a random problem, and what its walks cost.
-struct Case : testing::RandomSearch {
+struct Case : testing::RandomLattice {
   explicit Case(std::uint64_t index, std::int64_t budget = 5'000'000)
-      : RandomSearch(index),
-        work{.budget = budget},
-        lattice(search, start, goals, {16}, Steepness::kUsual),
-        contacts(static_cast<int>(search.contacts.size())),
-        rest(lattice, contacts, Limits(options, work), work) {}
+      : RandomLattice(index, budget), rest(lattice, contacts, limits, work) {}
 
   /// By the edges of a node.
   double least_over_edges(int node, int contact) {
@@ -32,10 +28,6 @@ struct Case : testing::RandomSearch {
     return least;
   }
 
-  PlanOptions options;
-  Work work;
-  WalkLattice lattice;
-  int contacts;
   WalkRest rest;
 };
 

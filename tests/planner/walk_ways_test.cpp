@@ -12,13 +12,11 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-struct Case : testing::RandomSearch {
+struct Case : testing::RandomLattice {
   explicit Case(std::uint64_t index)
-      : RandomSearch(index),
-        work{.budget = 50'000'000},
-        lattice(search, start, goals, {16}, Steepness::kUsual),
-        states(lattice, static_cast<int>(search.contacts.size())),
-        rest(lattice, states.contacts(), Limits(options, work), work),
+      : RandomLattice(index),
+        states(lattice, contacts),
+        rest(lattice, contacts, limits, work),
         ways(lattice, states, rest, work) {}
 
   /// J of steps from a state, and the state after them; they have to be connected.
@@ -35,9 +33,6 @@ struct Case : testing::RandomSearch {
     return {cost, state};
   }
 
-  PlanOptions options;
-  Work work;
-  WalkLattice lattice;
   WalkStates states;
   WalkRest rest;
   WalkWays ways;

@@ -74,8 +74,7 @@ TEST(LoopSearch, ReachesTheGoalByPushesThatStick) {
   EXPECT_LT(directions.reversible, directions.pushes);
 }
 
-/// Regrasps that no other stage finds with this work: one wall of which the object has to
-/// be led around a loop, where few headings stick.
+/// Regrasps of which labels keep no loop: few headings stick on their ways.
 TEST(LoopSearch, FindsWhatTurnsLittleAtATime) {
   for (const Scene& scene : {convex_with_walls(1, 87), convex_with_walls(3, 53)}) {
     const Model model = prepare(scene);

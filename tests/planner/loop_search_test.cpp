@@ -114,21 +114,11 @@ TEST(LoopSearch, TurnsAsOftenAsANumberAsks) {
 TEST(LoopSearch, KeepsToLimitsOfTheAngle) {
   int walks = 0;
   for (std::uint64_t i = 0; i < 10; ++i) {
-    const FixtureRange range{.object = FixtureObject::kBox, .goals = GoalsFrom::kRandom};
-    Scene scene = random_fixture(range, 1, i)->scene;
-    const double start = scene.start.X_HO.theta;
-    const double turn = wrapped(*scene.goal->theta - start);
-    const double low = start + std::min(turn, 0.0) - 0.3;
-    const double high = start + std::max(turn, 0.0) + 0.3;
-    scene.limits = GraspLimits{.theta_low = low, .theta_high = high};
-    const Model model = prepare(scene);
+    const Model model = prepare(testing::box_with_angle_limits(i));
     const auto moves = loop_in(prepare_search(model, Margin::none())).moves;
     if (!moves) continue;
     ++walks;
-    for (const Move& move : *moves) {
-      EXPECT_GE(move.to.theta, low - 1e-9);
-      EXPECT_LE(move.to.theta, high + 1e-9);
-    }
+    testing::expect_within_limits(model.scene, *moves);
   }
   EXPECT_GE(walks, 2);
 }

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "planner/planner.h"
 #include "planner/steering.h"
 #include "problems/published_regrasps.h"
@@ -41,6 +43,25 @@ inline Scene convex_with_walls(int walls, std::uint64_t index) {
                            .count = {1.0 * walls, 1.0 * walls},
                            .goals = GoalsFrom::kRandom};
   return random_fixture(range, 1, index)->scene;
+}
+
+/// A box with a goal anywhere, and limits on its angle 0.3 rad beyond start and goal.
+inline Scene box_with_angle_limits(std::uint64_t index) {
+  const FixtureRange range{.object = FixtureObject::kBox, .goals = GoalsFrom::kRandom};
+  Scene scene = random_fixture(range, 1, index)->scene;
+  const double start = scene.start.X_HO.theta;
+  const double turn = wrapped(*scene.goal->theta - start);
+  scene.limits = GraspLimits{.theta_low = start + std::min(turn, 0.0) - 0.3,
+                             .theta_high = start + std::max(turn, 0.0) + 0.3};
+  return scene;
+}
+
+/// Expects that every move ends within the limits of the angle.
+inline void expect_within_limits(const Scene& scene, const std::vector<Move>& moves) {
+  for (const Move& move : moves) {
+    EXPECT_GE(move.to.theta, *scene.limits->theta_low - 1e-8);
+    EXPECT_LE(move.to.theta, *scene.limits->theta_high + 1e-8);
+  }
 }
 
 /// Prints median, 99th percentile and worst of times in seconds.

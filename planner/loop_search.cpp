@@ -11,7 +11,7 @@
 #include "planner/confines.h"
 #include "planner/shorten.h"
 #include "planner/turning_loop.h"
-#include "planner/walk_gap.h"
+#include "planner/walk_rows.h"
 #include "planner/walk_search.h"
 #include "planner/walk_turns.h"
 
@@ -21,19 +21,24 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Lattices that are tried: those of other walks, and then some that are not kept. These
-/// take a second each.
+/// take up to a second each.
 constexpr std::array kFewWays = {24, 48};
+constexpr Fineness kManyHeadings = {24, 12};
 constexpr std::array<Fineness, 2> kManyWays = {{{64, 8}, {96, 5}}};
 
-/// What the last of the former leaves between start and goal is closed by the latter if
-/// it is not more [spacings].
+/// Lattices in rows along narrow ways: the finest that is small enough.
+constexpr std::array<Fineness, 3> kInRows = {{{16, 5}, {12, 5}, {8, 5}}};
+constexpr double kMostInRows = 3e4;  // nodes, about
+
+/// What the last of the first leaves between start and goal is closed by many ways if it
+/// is not more [spacings].
 constexpr double kNear = 4.0;
 
 /// Steps of their nodes by all contacts: what they allow is kept, 16 bytes each.
 constexpr int kMostSlopes = 1'500'000;
 
 /// Walks of which some push turns out not to stick; others are looked for.
-constexpr int kMostRepairs = 100;
+constexpr int kMostRepairs = 300;
 
 /// Turns of a push that are looked at where one does not stick.
 constexpr int kLooks = 9;
@@ -253,6 +258,20 @@ bool has_room_for_narrow_ways(const SearchModel& search) {
   return search.margin.place == 0.0;
 }
 
+/// What may lead where a lattice does not.
+struct NarrowWays {
+  bool are_near = false;  ///< it leaves little between start and goal
+  std::vector<Rows> rows;
+};
+
+NarrowWays narrow_ways(const SearchModel& search, WalkLattice& lattice,
+                       const Limits& limits, Work& work) {
+  if (lattice.slopes() > kMostSlopes) return {};
+  const auto gap = walk_gap(lattice, limits, work);
+  if (!gap) return {};
+  return {gap->spacings <= kNear, rows_across(search, *gap, work)};
+}
+
 }  // namespace
 
 std::optional<std::vector<Move>> search_loops(const SearchModel& search,
@@ -264,28 +283,39 @@ std::optional<std::vector<Move>> search_loops(const SearchModel& search,
   if (!is_for_walks(search)) return std::nullopt;
   std::optional<std::vector<Move>> moves;
   const auto search_over = [&](WalkLattice& lattice) {
-    if (lattice.slopes() > kMostSlopes) return;
     moves = LoopSearch(search, lattice, start, goals, limits, work).run();
     if (moves || beside.count == 0) return;
     lattice.set_ends(start, beside);
     moves = LoopSearch(search, lattice, start, beside, limits, work).run();
   };
+  const auto is_searched = [&](WalkLattice&& lattice) {
+    const bool is_small = lattice.slopes() <= kMostSlopes;
+    if (is_small) search_over(lattice);
+    return is_small;
+  };
+  const auto kept = [&](int per_side, const GoalPlaces& ends) -> WalkLattice& {
+    return lattices.between(search, start, ends, {per_side}, steepness);
+  };
   for (const int per_side : kFewWays) {
     if (moves) break;
-    search_over(lattices.between(search, start, goals, {per_side}, steepness));
+    WalkLattice& lattice = kept(per_side, goals);
+    if (lattice.slopes() <= kMostSlopes) search_over(lattice);
   }
-  const auto comes_near = [&] {
-    const GoalPlaces& ends = beside.count > 0 ? beside : goals;
-    WalkLattice& last =
-        lattices.between(search, start, ends, {kFewWays.back()}, steepness);
-    return last.slopes() <= kMostSlopes && walk_gap(last, limits, work) <= kNear;
-  };
-  if (!moves && steepness == Steepness::kUsual && has_room_for_narrow_ways(search) &&
-      comes_near()) {
+  if (!moves && steepness == Steepness::kUsual && has_room_for_narrow_ways(search)) {
+    const NarrowWays ways = narrow_ways(
+        search, kept(kFewWays.back(), beside.count > 0 ? beside : goals), limits, work);
+    const auto is_searched_finely = [&](const Fineness& fineness, const Rows& rows = {}) {
+      return is_searched({search, start, goals, fineness, Steepness::kUsualFinely, rows});
+    };
+    if (ways.are_near || !ways.rows.empty()) is_searched_finely(kManyHeadings);
+    for (const Rows& rows : ways.rows) {
+      for (const Fineness& fineness : kInRows) {
+        if (fineness.per_side * fineness.per_side * rows.closer > kMostInRows) continue;
+        if (moves || is_searched_finely(fineness, rows)) break;
+      }
+    }
     for (const Fineness& fineness : kManyWays) {
-      if (moves) break;
-      WalkLattice lattice(search, start, goals, fineness, Steepness::kUsualFinely);
-      search_over(lattice);
+      if (!moves && ways.are_near) is_searched_finely(fineness);
     }
   }
   if (!moves) return std::nullopt;

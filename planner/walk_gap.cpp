@@ -26,13 +26,12 @@ std::vector<int> reached_from(std::vector<int> nodes, const Neighbours& next) {
 
 }  // namespace
 
-double walk_gap(WalkLattice& lattice, const Limits& limits, Work& work) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+std::optional<WalkGap> walk_gap(WalkLattice& lattice, const Limits& limits, Work& work) {
   const auto count = static_cast<std::size_t>(lattice.nodes());
   Neighbours after(count);
   Neighbours before(count);
   for (int node = 0; node <= lattice.start(); ++node) {
-    if (limits.reached()) return kInfinity;
+    if (limits.reached()) return std::nullopt;
     for (const WalkEdge& edge : lattice.edges_from(node, work)) {
       if (edge.lo > edge.hi) continue;
       after[node].push_back(edge.to);
@@ -45,13 +44,16 @@ double walk_gap(WalkLattice& lattice, const Limits& limits, Work& work) {
   }
   const std::vector<int> from_start = reached_from({lattice.start()}, after);
   const std::vector<int> to_goal = reached_from(goals, before);
-  double least = kInfinity;
+  WalkGap gap{.spacings = std::numeric_limits<double>::infinity()};
   for (const int one : from_start) {
     for (const int other : to_goal) {
-      least = std::min(least, (lattice.place(one) - lattice.place(other)).squaredNorm());
+      const Vec2& from = lattice.place(one);
+      const Vec2& to = lattice.place(other);
+      const double spacings = (from - to).norm() / lattice.spacing();
+      if (spacings < gap.spacings) gap = {spacings, from, to};
     }
   }
-  return std::sqrt(least) / lattice.spacing();
+  return gap;
 }
 
 }  // namespace prehensile

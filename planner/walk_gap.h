@@ -1,15 +1,21 @@
 /// How far the walks from a start are from a goal. Internal to the own planner.
 #pragma once
 
+#include <optional>
+
 #include "planner/limits.h"
 #include "planner/walk_lattice.h"
 
 namespace prehensile {
 
-/// The least distance between places that walks from the start come to and places from
-/// which walks lead to a goal, in spacings of the lattice; 0 where a walk leads there.
-/// Where it is large no finer lattice closes it. Infinite if a limit is reached before it
-/// is known.
-double walk_gap(WalkLattice& lattice, const Limits& limits, Work& work);
+struct WalkGap {
+  double spacings = 0.0;  ///< of the lattice
+  Vec2 from, to;          ///< [m] the places, in O
+};
+
+/// Between the nearest places of which walks from the start come to one and walks lead
+/// from the other to a goal; of nought where a walk leads there. None if a limit is
+/// reached before it is known.
+std::optional<WalkGap> walk_gap(WalkLattice& lattice, const Limits& limits, Work& work);
 
 }  // namespace prehensile

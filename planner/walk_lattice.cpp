@@ -36,16 +36,34 @@ StickContact weakened(const SearchContact& contact, const Margin& margin) {
   return weak;
 }
 
+/// Of coordinates in rows, with `per_side` nodes over the longer side of the object, or
+/// in a row.
+PlaceGrid grid_over(const std::vector<Vec2>& face, const Rows& rows, int per_side) {
+  std::vector<Vec2> coordinates;
+  Vec2 least = Vec2::Constant(std::numeric_limits<double>::infinity());
+  Vec2 most = -least;
+  for (const Vec2& vertex : face) {
+    coordinates.push_back(rows.coordinates(vertex));
+    least = least.cwiseMin(coordinates.back());
+    most = most.cwiseMax(coordinates.back());
+  }
+  const Vec2 size = most - least;
+  const double stretched = rows.closer > 1.0 ? size.maxCoeff() / size.x() : 1.0;
+  return PlaceGrid::over(coordinates,
+                         static_cast<int>(std::lround(per_side * stretched)));
+}
+
 }  // namespace
 
 WalkLattice::WalkLattice(const SearchModel& search, const FlatState& start,
                          const GoalPlaces& goals, const Fineness& fineness,
-                         Steepness steepness)
+                         Steepness steepness, const Rows& rows)
     : search_(search),
       model_(*search.model),
       contacts_(static_cast<int>(search.contacts.size())),
       steepness_(steepness),
-      grid_(PlaceGrid::over(model_.pad_face, fineness.per_side)) {
+      rows_(rows),
+      grid_(grid_over(model_.pad_face, rows, fineness.per_side)) {
   for (const SearchContact& contact : search.contacts) {
     weak_.push_back(weakened(contact, search.margin));
   }
@@ -60,9 +78,9 @@ void WalkLattice::add_nodes() {
   const double depth = points ? kBesidePoints : 0.0;
   at_grid_.assign(grid_.count(), -1);
   for (int k = 0; k < grid_.count(); ++k) {
-    if (depth_inside(model_.pad_face, grid_.place(k)) < depth) continue;
+    if (depth_inside(model_.pad_face, place_on_grid(k)) < depth) continue;
     at_grid_[k] = static_cast<int>(nodes_.size());
-    nodes_.push_back({grid_.place(k)});
+    nodes_.push_back({place_on_grid(k)});
     on_grid_.push_back(k);
   }
   start_ = static_cast<int>(nodes_.size());
@@ -95,7 +113,7 @@ void WalkLattice::add_steps(int stride) {
   for (int i = -stride; i <= stride; ++i) {
     for (int j = -stride; j <= stride; ++j) {
       if (std::gcd(i, j) != 1) continue;
-      const Vec2 way = grid_.spacing * Vec2(i, j);
+      const Vec2 way = rows_.place(grid_.spacing * Vec2(i, j));
       steps_.push_back({i, j, way.norm(), -way.normalized()});
     }
   }
@@ -256,7 +274,9 @@ const PadsAtPlace& WalkLattice::pads_between(int from, const Step& step,
 void WalkLattice::add_given(int from, int to, Work& work, std::vector<WalkEdge>& edges) {
   const Vec2 way = place(to) - place(from);
   const double length = way.norm();
-  if (length < kShortestLeg || length > kReach * grid_.spacing) return;
+  if (length < kShortestLeg || rows_.coordinates(way).norm() > kReach * grid_.spacing) {
+    return;
+  }
   if (!segment_on_object(model_, place(from), place(to))) return;
   find_held(nodes_[from], work);
   find_held(nodes_[to], work);

@@ -32,12 +32,27 @@ struct Fineness {
   }
 };
 
+/// Nodes in rows that are closer to each other than the nodes in them, so that the
+/// headings of pushes along the rows differ little.
+struct Rows {
+  double heading = 0.0;  ///< [rad] in O
+  double closer = 1.0;   ///< so many times
+
+  Vec2 coordinates(const Vec2& p_OF) const {
+    const Vec2 along = rotated(-heading, p_OF);
+    return {along.x(), closer * along.y()};
+  }
+  Vec2 place(const Vec2& coordinates) const {
+    return rotated(heading, {coordinates.x(), coordinates.y() / closer});
+  }
+};
+
 class WalkLattice {
  public:
   /// Over the object, the start, and the places of the goals. `search` must outlive the
   /// lattice.
   WalkLattice(const SearchModel& search, const FlatState& start, const GoalPlaces& goals,
-              const Fineness& fineness, Steepness steepness);
+              const Fineness& fineness, Steepness steepness, const Rows& rows = {});
   WalkLattice(const WalkLattice&) = delete;
   WalkLattice& operator=(const WalkLattice&) = delete;
 
@@ -49,7 +64,7 @@ class WalkLattice {
   /// Steps from its nodes by all contacts: what they allow takes most of the memory.
   int slopes() const { return start_ * static_cast<int>(steps_.size()) * contacts_; }
 
-  double spacing() const { return grid_.spacing; }
+  double spacing() const { return grid_.spacing; }  ///< [m] in the rows
   const Vec2& place(int node) const { return nodes_[node].p_OF; }
 
   /// The index of the goal that a node is the place of, or negative.
@@ -90,6 +105,7 @@ class WalkLattice {
     Vec2 e;         // motion of the object
   };
 
+  Vec2 place_on_grid(int index) const { return rows_.place(grid_.place(index)); }
   void add_nodes();
   void add_steps(int stride);
   void find_held(Node& node, Work& work) const;
@@ -109,7 +125,8 @@ class WalkLattice {
   const int contacts_;
   const Steepness steepness_;
   std::vector<StickContact> weak_;  // by contact
-  PlaceGrid grid_;
+  const Rows rows_;
+  PlaceGrid grid_;  // of coordinates in the rows
   std::vector<Step> steps_;
   std::vector<Node> nodes_;   // of the grid, the start, the goals
   std::vector<int> on_grid_;  // of nodes

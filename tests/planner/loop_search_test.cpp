@@ -86,6 +86,29 @@ TEST(LoopSearch, FindsWhatTurnsLittleAtATime) {
   }
 }
 
+/// Through ways that few headings lead through: two friction cones that leave a few
+/// degrees more than half a turn.
+TEST(LoopSearch, TacksThroughNarrowWays) {
+  const FixtureRange low{.object = FixtureObject::kBox,
+                         .finger_friction = {0.15, 0.3},
+                         .pusher_friction = {0.1, 0.3},
+                         .goals = GoalsFrom::kRandom};
+  const FixtureRange high{.object = FixtureObject::kBox,
+                          .finger_friction = {0.9, 1.5},
+                          .pusher_friction = {0.9, 1.5},
+                          .goals = GoalsFrom::kRandom};
+  const Scene scenes[] = {random_fixture(low, 1, 43)->scene,
+                          random_fixture(high, 1, 26)->scene};
+  for (const Scene& scene : scenes) {
+    const Model model = prepare(scene);
+    const SearchModel search = prepare_search(model, Margin::none());
+    const Found found = loop_in(search, 20'000'000);
+    ASSERT_TRUE(found.moves) << scene.name;
+    testing::Directions directions;
+    expect_executable(model, search, *found.moves, directions);
+  }
+}
+
 /// A number for a goal, twelve turns away, to either side: the loop is gone
 /// around as often as that takes.
 TEST(LoopSearch, TurnsAsOftenAsANumberAsks) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/outline.h"
 #include "tests/planner/planner_cases.h"
 #include "tests/planner/random_search.h"
 
@@ -36,6 +37,33 @@ void expect_same(const std::vector<WalkEdge>& edges,
     EXPECT_EQ(edges[i].hi, others[i].hi);
     EXPECT_EQ(edges[i].cost, others[i].cost);
   }
+}
+
+/// In rows along a heading, closer to each other than the nodes in them: two pushes from
+/// a node along the rows differ little in heading, and lead between nodes on the object.
+TEST(WalkLattice, LiesInRows) {
+  int alike = 0;
+  for (std::uint64_t i = 0; i < 6; ++i) {
+    Case c(i);
+    const Rows rows{.heading = 0.3 + static_cast<double>(i), .closer = 12.0};
+    WalkLattice lattice(c.search, c.start, c.goals, {6}, Steepness::kUsual, rows);
+    const double spacing = lattice.spacing();
+    for (int node = 0; node < lattice.start(); ++node) {
+      EXPECT_GE(depth_inside(c.model.pad_face, lattice.place(node)), 0.0);
+      for (const WalkEdge& edge : lattice.edges_from(node, c.work)) {
+        if (edge.to >= lattice.start()) continue;
+        const Vec2 step =
+            rows.coordinates(lattice.place(edge.to) - lattice.place(node)) / spacing;
+        EXPECT_NEAR((step - step.array().round().matrix()).norm(), 0.0, 1e-6);
+        alike += std::lround(std::abs(step.x())) == 3;
+      }
+    }
+    const Vec2 place(0.01, -0.02);
+    EXPECT_NEAR((rows.place(rows.coordinates(place)) - place).norm(), 0.0, 1e-15);
+    EXPECT_NEAR(rows.place({spacing, 0.0}).norm(), spacing, 1e-15);
+    EXPECT_NEAR(rows.place({0.0, spacing}).norm(), spacing / 12.0, 1e-15);
+  }
+  EXPECT_GT(alike, 0);
 }
 
 /// Whatever was asked for before, and however its edges were narrowed.

@@ -1,0 +1,80 @@
+#include "planner/walk_rows.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "planner/free_directions.h"
+#include "planner/holding.h"
+
+namespace prehensile {
+namespace {
+
+/// Places that are looked at, as shares of the way across the gap.
+constexpr std::array kShares = {0.5, 0.0, 0.25, 0.75, 1.0};
+
+/// Ways that are wider have headings in other lattices, and narrower ones have none that
+/// stick with the real pads [rad].
+constexpr double kWidest = 0.25;
+constexpr double kNarrowest = 0.003;
+
+/// Rows with headings that differ by less are alike.
+constexpr double kAlike = 0.5;  // widths of the way
+
+struct NarrowWay {
+  double heading = 0.0, width = 0.0;  // [rad]
+};
+
+/// Headings of the finger axis that some contact sticks along at a place, at some rate of
+/// turn.
+FreeDirections headings_at(const SearchModel& search, const Vec2& p_OF, Work& work) {
+  const Model& model = *search.model;
+  const PadsAtPlace pads(model, p_OF);
+  std::vector<StickContact> held;
+  for (const SearchContact& contact : search.contacts) {
+    const Vec2& g_O = model.contacts[contact.contact].g_O;
+    if (pads_hold_gravity(model, pose_from_finger(p_OF, 0.0), g_O, work)) {
+      held.push_back(contact.stick);
+    }
+  }
+  if (pads.are_lost() || held.empty()) return {};
+  return FreeDirections::where([&](double angle) {
+    ++work.other;
+    DirectedDrag drag(model, pads, -towards(angle));
+    return std::ranges::any_of(held, [&](const StickContact& contact) {
+      return drag.kappas(contact, p_OF).count > 0;
+    });
+  });
+}
+
+/// What the headings at a place leave out is less than half a turn by the width of the
+/// way, so that the headings to either side of its axis lead along it to and fro.
+NarrowWay way_between(const FreeDirections& headings) {
+  const auto gap = headings.widest_gap();
+  const double width = std::numbers::pi - gap.width;
+  return {gap.from - 0.5 * width, width};
+}
+
+}  // namespace
+
+std::vector<Rows> rows_across(const SearchModel& search, const WalkGap& gap, Work& work) {
+  if (gap.spacings == 0.0) return {};
+  std::vector<NarrowWay> ways;
+  for (const double share : kShares) {
+    const Vec2 place = gap.from + share * (gap.to - gap.from);
+    const NarrowWay way = way_between(headings_at(search, place, work));
+    if (way.width < kNarrowest || way.width > kWidest) continue;
+    const bool is_known = std::ranges::any_of(ways, [&](const NarrowWay& other) {
+      const double off = std::remainder(way.heading - other.heading, std::numbers::pi);
+      return std::abs(off) < kAlike * std::min(way.width, other.width);
+    });
+    if (!is_known) ways.push_back(way);
+  }
+  std::ranges::stable_sort(ways, {}, [](const NarrowWay& way) { return -way.width; });
+  std::vector<Rows> rows;
+  for (const NarrowWay& way : ways) rows.push_back({way.heading, 1.0 / way.width});
+  return rows;
+}
+
+}  // namespace prehensile

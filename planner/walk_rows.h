@@ -1,0 +1,19 @@
+/// Rows of places for walks through narrow ways. Internal to the own planner.
+///
+/// Where some contacts push one way and others push back, and their headings leave out
+/// little less than half a turn, tacking between the two leads everywhere: along headings
+/// of which no lattice of equal spacings has two.
+#pragma once
+
+#include <vector>
+
+#include "planner/walk_gap.h"
+
+namespace prehensile {
+
+/// Rows along such headings at some places across a gap, those whose way is widest first:
+/// lattices with these rows have some headings within it. None where walks leave no gap
+/// or no way is narrow.
+std::vector<Rows> rows_across(const SearchModel& search, const WalkGap& gap, Work& work);
+
+}  // namespace prehensile

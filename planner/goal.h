@@ -58,7 +58,8 @@ GoalPlaces wound_places(const Model& model, const Goal& goal,
 inline constexpr double kWorthTolerance = 0.9;
 
 /// Members of a goal that fixes place and angle but for its tolerances, at up to 0.9 of
-/// these; nearest to the start first, without whole turns.
+/// these, in the corners of the square, too, where each coordinate has its own; nearest
+/// to the start first, without whole turns.
 GoalPlaces tolerated_places(const Model& model, const Goal& goal,
                             const FlatState& start) noexcept;
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "planner/baselines.h"
@@ -264,12 +265,22 @@ struct NarrowWays {
   std::vector<Rows> rows;
 };
 
-NarrowWays narrow_ways(const SearchModel& search, WalkLattice& lattice,
+/// Between the start and each of these sets of goals.
+NarrowWays narrow_ways(const SearchModel& search, const FlatState& start,
+                       std::span<const GoalPlaces* const> ends, WalkLattice& lattice,
                        const Limits& limits, Work& work) {
   if (lattice.slopes() > kMostSlopes) return {};
-  const auto gap = walk_gap(lattice, limits, work);
-  if (!gap) return {};
-  return {gap->spacings <= kNear, rows_across(search, *gap, work)};
+  NarrowWays ways;
+  std::vector<WalkGap> gaps;
+  for (const GoalPlaces* goals : ends) {
+    lattice.set_ends(start, *goals);
+    const auto gap = walk_gap(lattice, limits, work);
+    if (!gap) continue;
+    gaps.push_back(*gap);
+    ways.are_near |= gap->spacings <= kNear;
+  }
+  ways.rows = rows_across(search, gaps, work);
+  return ways;
 }
 
 }  // namespace
@@ -302,8 +313,10 @@ std::optional<std::vector<Move>> search_loops(const SearchModel& search,
     if (lattice.slopes() <= kMostSlopes) search_over(lattice);
   }
   if (!moves && steepness == Steepness::kUsual && has_room_for_narrow_ways(search)) {
-    const NarrowWays ways = narrow_ways(
-        search, kept(kFewWays.back(), beside.count > 0 ? beside : goals), limits, work);
+    const std::array ends = {&goals, &beside};
+    const NarrowWays ways =
+        narrow_ways(search, start, std::span(ends).first(beside.count > 0 ? 2 : 1),
+                    kept(kFewWays.back(), goals), limits, work);
     const auto is_searched_finely = [&](const Fineness& fineness, const Rows& rows = {}) {
       return is_searched({search, start, goals, fineness, Steepness::kUsualFinely, rows});
     };

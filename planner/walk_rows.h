@@ -5,15 +5,17 @@
 /// of which no lattice of equal spacings has two.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "planner/walk_gap.h"
 
 namespace prehensile {
 
-/// Rows along such headings at some places across a gap, those whose way is widest first:
+/// Rows along such headings at some places across gaps, those whose way is widest first:
 /// lattices with these rows have some headings within it. None where walks leave no gap
 /// or no way is narrow.
-std::vector<Rows> rows_across(const SearchModel& search, const WalkGap& gap, Work& work);
+std::vector<Rows> rows_across(const SearchModel& search, std::span<const WalkGap> gaps,
+                              Work& work);
 
 }  // namespace prehensile

@@ -142,6 +142,28 @@ TEST(Goal, WoundToleratedPlacesMeetTheGoalAtEachOfTheseTurns) {
   EXPECT_GT(tolerated_places(model, number, start).count, 0);
 }
 
+/// Each coordinate has a tolerance of its own, or both share one with the angle: the
+/// places reach into the corners of a square, or as far to every side.
+TEST(Goal, ToleratedPlacesReachIntoTheCorners) {
+  const Model model = prepare(published_tee(3));
+  Goal goal = goal_at({0.01, 0.0}, 1.0);
+  const FlatState start{{-0.02, 0.01}, 1.0};
+  for (const GoalTest test : {GoalTest::kPerCoordinate, GoalTest::kWeightedSum}) {
+    goal.test = test;
+    const GoalPlaces places = tolerated_places(model, goal, start);
+    double farthest = 0.0;
+    for (int k = 0; k < places.count; ++k) {
+      const Grasp grasp =
+          grasp_of({places.places[k].p_OF, places.places[k].theta[0]}, 0.0);
+      EXPECT_TRUE(reaches(goal, grasp));
+      const Vec2 off = translation(grasp.X_HO) - Vec2(*goal.x, *goal.y);
+      farthest = std::max(farthest, off.norm() / goal.position_tolerance);
+    }
+    EXPECT_NEAR(farthest, test == GoalTest::kPerCoordinate ? 0.9 * std::sqrt(2.0) : 0.9,
+                1e-9);
+  }
+}
+
 TEST(Goal, RollNeededIsTheShortWayRound) {
   Goal goal;
   goal.psi = 3.0;

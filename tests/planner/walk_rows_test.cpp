@@ -32,8 +32,8 @@ std::vector<Rows> rows_in(const Scene& scene, double gap_spacings) {
   const Model model = prepare(scene);
   const SearchModel search = prepare_search(model, Margin::none());
   Work work{.budget = testing::kNoBudget};
-  return rows_across(search, {gap_spacings, Vec2(-0.002, 0.001), Vec2(0.003, 0.002)},
-                     work);
+  const WalkGap gap{gap_spacings, Vec2(-0.002, 0.001), Vec2(0.003, 0.002)};
+  return rows_across(search, {{gap}}, work);
 }
 
 /// Headings within atan(mu) of two normals at a right angle take up 2 atan(mu) + 90

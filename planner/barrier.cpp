@@ -54,8 +54,8 @@ constexpr double kGoalSpacing = 2e-4;
 
 /// Lines that follow what sticks, of those that are tried as borders. Where the face
 /// clips the discs so much slack, over F, may be missing. Tried in order.
-constexpr int kMostTraced = 40;
-constexpr int kMostTracedWhereClipped = 12;
+constexpr int kMostTraced = 60;
+constexpr int kMostTracedWhereClipped = 20;
 constexpr std::array kAllowedIfTraced = {0.04, 0.02, 0.01};
 
 /// A field with less at the goal [spacings of the grid] shows no barrier.
@@ -167,8 +167,9 @@ Loops barrier_of_clipped_discs(const Model& model, const CheatField::Stopped& st
   };
   const GoalSample goal = sample_of(*model.scene.goal, kGoalSpacing);
   for (const double allowed : kAllowedIfTraced) {
-    Loops traced = barrier_among(model, traced_regions(model, goal, free_if(allowed),
-                                                       kMostTracedWhereClipped, stopped));
+    const FreeAt free_at = free_closely_over_clipped_discs(model, slacks, allowed);
+    Loops traced = barrier_among(
+        model, traced_regions(model, goal, free_at, kMostTracedWhereClipped, stopped));
     if (!traced.empty()) return traced;
   }
   Levels levels(model);

@@ -22,7 +22,7 @@ constexpr std::size_t kMostVertices = 2000;
 
 /// Pieces of the border and ranges of directions are halved so often.
 constexpr int kMostCuts = 12;
-constexpr int kMostTurns = 8;
+constexpr int kMostTurns = 12;
 
 /// Squares of places of the goal are cut into quarters so often where the region is near.
 constexpr int kMostGoalCuts = 5;

@@ -101,4 +101,14 @@ FreeAt free_over_clipped_discs(const Model& model, PlaceSlacks& slacks, double a
   };
 }
 
+FreeAt free_closely_over_clipped_discs(const Model& model, PlaceSlacks& slacks,
+                                       double allowed) {
+  return [&model, where_whole = free_over<RoundPads>(model),
+          where_clipped =
+              free_over_clipped_discs(model, slacks, allowed)](const Vec2& place) {
+    const bool whole = model.region.is_whole(pose_from_finger(place, 0.0));
+    return whole ? where_whole(place) : where_clipped(place);
+  };
+}
+
 }  // namespace prehensile

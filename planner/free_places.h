@@ -15,4 +15,8 @@ FreeAt free_over_whole_pads(const Model& model);
 /// the same model, must outlive what is returned.
 FreeAt free_over_clipped_discs(const Model& model, PlaceSlacks& slacks, double allowed);
 
+/// The same, with nothing missing and no grid where the discs are whole.
+FreeAt free_closely_over_clipped_discs(const Model& model, PlaceSlacks& slacks,
+                                       double allowed);
+
 }  // namespace prehensile

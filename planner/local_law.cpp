@@ -10,7 +10,9 @@
 namespace prehensile {
 namespace {
 
+/// Boxes, and cells of round pads: the more, the less the law allows beyond what sticks.
 constexpr int kEllipsoidBoxes = 1024;
+constexpr int kRingCellsOfLaw = 1024;
 
 /// Over F, F c and |v|: by so much an inequality may fail and still count as met.
 constexpr double kRounding = 1e-8;
@@ -71,7 +73,7 @@ std::vector<FrictionBox> boxes_of(PadSection section) {
 std::vector<FrictionBox> boxes_of(const Model& model) {
   if (!has_planar_pushes(model)) return {};
   if (model.has_soft_points()) return ellipsoid_boxes();
-  return boxes_of(pad_section(model));
+  return boxes_of(pad_section(model, kRingCellsOfLaw));
 }
 
 /// Leaves in the second half, as many as a power of two: the last box repeated.
@@ -268,7 +270,7 @@ LocalLaw::LocalLaw(const Model& model, bool weightless,
 
 LocalLaw LocalLaw::of_whole_discs(const Model& model) {
   if (!has_planar_pushes(model)) return {model, false, {}};
-  return {model, false, boxes_of(section_of_whole_discs(model))};
+  return {model, false, boxes_of(section_of_whole_discs(model, kRingCellsOfLaw))};
 }
 
 bool LocalLaw::is_in_cone(const PushContact& contact,

@@ -15,7 +15,6 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-constexpr int kRingCells = 256;     // for either sign of kappa
 constexpr double kRounding = 1e-9;  // of the friction of rings
 
 /// Ends of a cell of round pads, or more: what is monotone between them.
@@ -74,16 +73,16 @@ FrictionBox box_of(const SectionCell& cell) {
   return box;
 }
 
-PadSection ring_section(const ContactPoints& points, double c) {
+PadSection ring_section(const ContactPoints& points, double c, int cells) {
   PadSection section;
   double least_radius = kInfinity;
   for (int j = 0; j < points.count; ++j) {
     least_radius = std::min(least_radius, std::hypot(points.x[j], points.y[j]));
   }
   std::vector<RingEnd> ends;
-  ends.reserve(kRingCells + 1);
-  for (int i = 0; i <= kRingCells; ++i) {
-    const double angle = 0.5 * kPi * i / kRingCells;
+  ends.reserve(cells + 1);
+  for (int i = 0; i <= cells; ++i) {
+    const double angle = 0.5 * kPi * i / cells;
     const RingFriction friction = ring_friction(points, c, angle);
     ends.push_back({angle, friction, friction.drag * std::sin(angle)});
   }
@@ -92,8 +91,8 @@ PadSection ring_section(const ContactPoints& points, double c) {
   };
   section.slow_ratio = ratio(ends[1]);
   section.fast_ratio = ratio(ends.back());
-  section.cells.reserve(2 * kRingCells);
-  for (int i = 0; i < kRingCells; ++i) {
+  section.cells.reserve(2 * cells);
+  for (int i = 0; i < cells; ++i) {
     const SectionCell cell = ring_cell(ends[i], ends[i + 1], c, least_radius);
     section.cells.push_back(cell);
     section.cells.push_back(mirrored(cell));
@@ -112,15 +111,15 @@ FrictionBox joined(const FrictionBox& a, const FrictionBox& b) {
           std::max(a.sine_high, b.sine_high)};
 }
 
-PadSection pad_section(const Model& model) {
+PadSection pad_section(const Model& model, int ring_cells) {
   const ContactPoints& points = model.region.whole();
-  if (has_ring_pads(model)) return ring_section(points, model.c);
+  if (has_ring_pads(model)) return ring_section(points, model.c, ring_cells);
   const bool usable = model.region.is_fixed_in_hand() && model.F > 0.0 && model.c > 0.0;
   return usable ? section_of_points(points, model.c) : PadSection{};
 }
 
-PadSection section_of_whole_discs(const Model& model) {
-  return ring_section(model.region.whole(), model.c);
+PadSection section_of_whole_discs(const Model& model, int ring_cells) {
+  return ring_section(model.region.whole(), model.c, ring_cells);
 }
 
 }  // namespace prehensile

@@ -39,6 +39,9 @@ struct PadSection {
   std::vector<FrictionBox> boxes;  ///< of the same motions, closer
 };
 
+/// Cells of round pads for either sign of kappa, where no law needs them finer.
+inline constexpr int kRingCells = 256;
+
 /// Of round pads (ring_pads.h): cells over all motions. Force and moment are monotone in
 /// kappa, so that the ends of a cell bound what lies between.
 ///
@@ -49,9 +52,9 @@ struct PadSection {
 /// others say next to nothing.
 ///
 /// Empty where the pads are not the same at each pose, or have no friction or torque.
-PadSection pad_section(const Model& model);
+PadSection pad_section(const Model& model, int ring_cells = kRingCells);
 
 /// Of discs that the face clips elsewhere (has_clipped_discs), where they are whole.
-PadSection section_of_whole_discs(const Model& model);
+PadSection section_of_whole_discs(const Model& model, int ring_cells = kRingCells);
 
 }  // namespace prehensile

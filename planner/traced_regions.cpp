@@ -31,6 +31,9 @@ constexpr double kLenient = 0.03;
 /// headings that are left.
 constexpr double kAside = 0.1;
 
+/// Lines that need to follow what is free no longer keep away from it by this share.
+constexpr double kAsideThen = 0.25;
+
 /// Directions in which a line may be led through a place: from `low` counter-clockwise;
 /// any where nothing sticks.
 struct Headings {
@@ -38,6 +41,16 @@ struct Headings {
   double low = 0.0, width = 0.0;  // [rad]
   double middle() const { return low + 0.5 * width; }
 };
+
+/// Those that both leave.
+Headings common(const Headings& one, const Headings& other) {
+  if (one.any) return other;
+  if (other.any) return one;
+  const double off = std::remainder(other.low - one.low, 2.0 * kHalfTurn);
+  const double low = std::max(0.0, off);
+  const double high = std::min(one.width, off + other.width);
+  return {false, one.low + low, high - low};
+}
 
 Headings headings_beside(const FreeDirections& free) {
   if (free.are_none()) return {};
@@ -89,16 +102,27 @@ class HeadingGrid {
 /// headings admit, or at a share of them.
 struct Steer {
   bool straight = true;
-  double first = 0.5;           // share of the headings where it begins
-  double on = 0.5, back = 0.5;  // otherwise
+  double first = 0.5;            // share of the headings where it begins
+  double on = 0.5, back = 0.5;   // otherwise
+  double closely = kEverywhere;  // [m] to how far along; from there on less
 };
 
-std::vector<Steer> all_steers() {
+/// `closely` [m]: how far lines around what the start reaches, or what leads to the goal,
+/// have to follow it.
+std::vector<Steer> all_steers(double closely) {
   constexpr std::array kFirst = {0.5, 0.2, 0.8, 0.05, 0.95};
-  constexpr std::array kShares = {0.15, 0.85, 0.03, 0.97};
+  constexpr std::array kShares = {0.15, 0.85, 0.03, 0.97, 0.006, 0.994};
+  constexpr std::array kCloseShares = {0.03, 0.006, 0.0015};
   std::vector<Steer> steers;
-  steers.reserve(kFirst.size() + kShares.size() * kShares.size());
+  steers.reserve(kFirst.size() + 2 * kCloseShares.size() +
+                 kShares.size() * kShares.size());
   for (const double first : kFirst) steers.push_back({.first = first});
+  for (const double share : kCloseShares) {
+    for (const double on : {share, 1.0 - share}) {
+      steers.push_back(
+          {.straight = false, .on = on, .back = 1.0 - on, .closely = closely});
+    }
+  }
   for (const double on : kShares) {
     for (const double back : kShares) {
       steers.push_back({.straight = false, .on = on, .back = back});
@@ -124,7 +148,7 @@ class Tracer {
     Steer begin = steer;
     begin.straight = false;
     begin.on = steer.first;
-    const auto angle = heading(place, begin, 1.0, 0.0, at);
+    const auto angle = heading(headings_at(place, at), begin, 1.0, 0.0, 0.0);
     if (!angle) return {};
     const auto on = way(place, steer, 1.0, *angle, at);
     const auto back = on ? way(place, steer, -1.0, *angle, at) : std::nullopt;
@@ -137,34 +161,42 @@ class Tracer {
   }
 
  private:
-  template <class HeadingsAt>
-  std::optional<double> heading(const Vec2& p, const Steer& steer, double sense,
-                                double last, const HeadingsAt& at) const {
-    if (depth_inside(outline_, p) < 0.0) return last;
-    const Headings headings = at(p);
+  std::optional<double> heading(const Headings& headings, const Steer& steer,
+                                double sense, double last, double gone) const {
     if (headings.any) return last;
     if (headings.width < -kLenient) return std::nullopt;
     const double middle = headings.middle();
     if (headings.width <= 0.0) return middle;
-    const double share = sense > 0.0 ? steer.on : steer.back;
+    double share = sense > 0.0 ? steer.on : steer.back;
+    if (gone > steer.closely) share = std::clamp(share, kAsideThen, 1.0 - kAsideThen);
     if (!steer.straight) return headings.low + share * headings.width;
     const double most = (0.5 - kAside) * headings.width;
     const double off = std::remainder(last - middle, 2.0 * kHalfTurn);
     return middle + std::clamp(off, -most, most);
   }
 
-  /// From a place on, or back, to beside the object.
+  template <class HeadingsAt>
+  Headings headings_at(const Vec2& p, const HeadingsAt& at) const {
+    return depth_inside(outline_, p) < 0.0 ? Headings() : at(p);
+  }
+
+  /// From a place on, or back, to beside the object: each step along a heading that is
+  /// left where it begins, half way, and where it ends.
   template <class HeadingsAt>
   std::optional<std::vector<Vec2>> way(Vec2 p, const Steer& steer, double sense,
                                        double last, const HeadingsAt& at) const {
     std::vector<Vec2> way;
     for (int k = 0; k < kMostSteps; ++k) {
-      const auto here = heading(p, steer, sense, last, at);
-      if (!here) return std::nullopt;
-      const Vec2 middle = p + 0.5 * sense * step_ * towards(*here);
-      const auto there = heading(middle, steer, sense, *here, at);
-      if (!there) return std::nullopt;
-      last = *there;
+      const Headings begin = headings_at(p, at);
+      auto angle = heading(begin, steer, sense, last, k * step_);
+      for (int i = 0; angle && i < 2; ++i) {
+        const Vec2 step = sense * step_ * towards(*angle);
+        const Headings all = common(
+            begin, common(headings_at(p + 0.5 * step, at), headings_at(p + step, at)));
+        angle = heading(all, steer, sense, last, k * step_);
+      }
+      if (!angle) return std::nullopt;
+      last = *angle;
       p += sense * step_ * towards(last);
       way.push_back(p);
       if (is_beside(p)) return way;
@@ -198,8 +230,8 @@ class Tracer {
 
 /// Where lines begin: around the start, around the goal, and between them.
 std::vector<Vec2> places_to_begin(const Vec2& start, const GoalSample& goal) {
-  constexpr std::array kFromStart = {2e-4, 1e-3, 3e-3};  // [m]
-  constexpr std::array kFromGoal = {2e-4, 2e-3};         // [m]
+  constexpr std::array kFromStart = {2e-5, 2e-4, 1e-3, 3e-3};  // [m]
+  constexpr std::array kFromGoal = {2e-4, 2e-3};               // [m]
   constexpr int kAround = 8;
   constexpr int kBetween = 6;
   constexpr std::size_t kOfGoal = 12;
@@ -246,7 +278,7 @@ std::vector<Loops> traced_regions(const Model& model, const GoalSample& goal,
   };
   const std::vector<Vec2> places = places_to_begin(start, goal);
   std::vector<Loops> regions;
-  for (const Steer& steer : all_steers()) {
+  for (const Steer& steer : all_steers((goal.middle.front() - start).norm())) {
     for (const Vec2& place : places) {
       if (static_cast<int>(regions.size()) == count) return regions;
       if (stopped && stopped()) return regions;
@@ -259,15 +291,17 @@ std::vector<Loops> traced_regions(const Model& model, const GoalSample& goal,
 }
 
 Loops region_ahead(const Model& model, const Vec2& apex, const FreeAt& free_at,
-                   double aside) {
-  return region_beside(model, apex, free_at,
-                       {.straight = false, .on = aside, .back = 1.0 - aside});
+                   double aside, double closely) {
+  return region_beside(
+      model, apex, free_at,
+      {.straight = false, .on = aside, .back = 1.0 - aside, .closely = closely});
 }
 
 Loops region_not_behind(const Model& model, const Vec2& apex, const FreeAt& free_at,
-                        double aside) {
-  return region_beside(model, apex, free_at,
-                       {.straight = false, .on = 1.0 - aside, .back = aside});
+                        double aside, double closely) {
+  return region_beside(
+      model, apex, free_at,
+      {.straight = false, .on = 1.0 - aside, .back = aside, .closely = closely});
 }
 
 }  // namespace prehensile

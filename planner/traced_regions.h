@@ -7,6 +7,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "mechanics/model.h"
@@ -27,14 +28,16 @@ std::vector<Loops> traced_regions(const Model& model, const GoalSample& goal,
                                   const FreeAt& free_at, int count,
                                   const std::function<bool()>& stopped = {});
 
+inline constexpr double kEverywhere = std::numeric_limits<double>::infinity();
+
 /// The region that ways from `apex` on reach: between the lines that follow the outermost
 /// free directions to either side, turned `aside` by a share (0..0.5) of what they may
-/// be. None if one of them ends on the object.
+/// be; by more beyond a length of `closely` [m]. None if one of them ends on the object.
 Loops region_ahead(const Model& model, const Vec2& apex, const FreeAt& free_at,
-                   double aside);
+                   double aside, double closely = kEverywhere);
 
 /// All but the region from which ways reach `apex`, likewise.
 Loops region_not_behind(const Model& model, const Vec2& apex, const FreeAt& free_at,
-                        double aside);
+                        double aside, double closely = kEverywhere);
 
 }  // namespace prehensile

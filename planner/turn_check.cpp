@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "planner/barrier.h"
 #include "planner/goal_cover.h"
@@ -19,20 +20,23 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 /// Squares that the object is covered with at first, along its longer side, and how often
 /// each is cut into four.
 constexpr int kSquaresPerSide = 16;
-constexpr int kMostCuts = 6;
+constexpr int kMostCuts = 9;
 
 /// Ranges of directions at first, and how often each is halved.
 constexpr int kRanges = 8;
-constexpr int kMostHalvings = 6;
+constexpr int kMostHalvings = 10;
 
 /// What a check may take: questions to the laws, and squares of the goal.
-constexpr int kMostQuestions = 2'000'000;
-constexpr int kMostGoalSquares = 200'000;
+constexpr int kMostQuestions = 8'000'000;
+constexpr int kMostGoalSquares = 800'000;
 
 /// How often the square of the goal's places is cut into four.
 constexpr int kMostGoalCuts = 6;
 
 constexpr double kRounding = 1e-9;  // [m] of places
+
+/// Squares of which it is told what breaks the bounds, at most.
+constexpr std::size_t kMostBreaks = 60;
 
 bool refuse(std::string* why, const char* text) {
   if (why) *why = text;
@@ -88,7 +92,8 @@ class TurnLaw {
 
   bool is_known() const { return law_.is_known(); }
 
-  bool holds() {
+  /// `breaks` as of verify_turn.
+  bool holds(TurnBreaks* breaks) {
     Vec2 low = model_.pad_face.front();
     Vec2 high = low;
     for (const Vec2& vertex : model_.pad_face) {
@@ -96,17 +101,22 @@ class TurnLaw {
       high = high.cwiseMax(vertex);
     }
     const double half_edge = 0.5 * (high - low).maxCoeff() / kSquaresPerSide;
+    bool all = true;
     for (int i = 0; i < kSquaresPerSide; ++i) {
       for (int j = 0; j < kSquaresPerSide; ++j) {
         const Vec2 middle = low + half_edge * Vec2(2 * i + 1, 2 * j + 1);
         const Square square{middle, half_edge};
-        if (!holds_all_over(square, kMostCuts,
-                            [&](const Square& part) { return hold_in(part); })) {
-          return false;
+        if (holds_all_over(square, kMostCuts,
+                           [&](const Square& part) { return hold_in(part); })) {
+          continue;
         }
+        all = false;
+        if (!breaks || !broken_ || breaks->pushes.size() == kMostBreaks) return false;
+        breaks->pushes.push_back(*broken_);
+        broken_.reset();
       }
     }
-    return true;
+    return all;
   }
 
  private:
@@ -150,7 +160,12 @@ class TurnLaw {
     if (is_within(proof_.turn->most, 1.0) && is_within(proof_.turn->least, -1.0)) {
       return true;
     }
-    if (halvings == 0) return false;
+    if (halvings == 0) {
+      broken_ = {0.5 * (corners[0] + corners[2]), directions,
+                 law_.most_turn(contact, corners, directions, 1.0),
+                 -law_.most_turn(contact, corners, directions, -1.0)};
+      return false;
+    }
     const double half = 0.5 * half_angle;
     return hold_for(contact, corners, angle - half, half, halvings - 1) &&
            hold_for(contact, corners, angle + half, half, halvings - 1);
@@ -162,6 +177,8 @@ class TurnLaw {
   bool clips_;
   LocalLaw law_;
   int asked_ = 0;
+  std::optional<TurnBreaks::Push>
+      broken_;  // where the bounds are, that was looked at last
 };
 
 /// Places of the goal at some angle, as squares about its own in the hand.
@@ -182,8 +199,13 @@ class GoalAngle {
     const double around =
         square.reach() + half_step_ * Vec2(*goal.x, *goal.y).norm() + kRounding;
     const Vec2 place = goal_place(goal, theta_) + rotated(-theta_, square.middle);
-    return !is_allowed(place, around) || is_out_of_reach(proof_, place, around);
+    if (!is_allowed(place, around) || is_out_of_reach(proof_, place, around)) return true;
+    allowed_ = place;
+    return false;
   }
+
+  /// The place that was not excluded last.
+  const Vec2& allowed() const { return allowed_; }
 
  private:
   /// Whether the bounds allow the angle, some whole turns aside, up to `around` from a
@@ -210,23 +232,33 @@ class GoalAngle {
   const Proof& proof_;
   double theta_, half_step_;
   int& looked_at_;
+  Vec2 allowed_ = Vec2::Zero();
 };
 
 /// Whether no pose of the goal set with a place between the regions has an angle that the
 /// bounds allow.
-bool turn_excludes_goal(const Model& model, const Proof& proof) {
+bool turn_excludes_goal(const Model& model, const Proof& proof, TurnBreaks* breaks) {
   const Goal& goal = *model.scene.goal;
   int looked_at = 0;
-  return for_all_goal_angles(goal, [&](double theta, double half_step) {
+  bool all = true;
+  for_all_goal_angles(goal, [&](double theta, double half_step) {
     GoalAngle angle(model, proof, theta, half_step, looked_at);
-    return holds_all_over({Vec2::Zero(), goal.position_tolerance}, kMostGoalCuts,
-                          [&](const Square& part) { return angle.excludes(part); });
+    if (holds_all_over({Vec2::Zero(), goal.position_tolerance}, kMostGoalCuts,
+                       [&](const Square& part) { return angle.excludes(part); })) {
+      return true;
+    }
+    all = false;
+    if (!breaks || looked_at > kMostGoalSquares) return false;
+    breaks->ends.push_back(angle.allowed());
+    return true;
   });
+  return all;
 }
 
 }  // namespace
 
-bool verify_turn(const Model& model, const Proof& proof, std::string* why) {
+bool verify_turn(const Model& model, const Proof& proof, std::string* why,
+                 TurnBreaks* breaks) {
   const Goal& goal = *model.scene.goal;
   if (!goal.x || !goal.y || !goal.theta) {
     return refuse(why, "the goal leaves a coordinate free");
@@ -255,10 +287,11 @@ bool verify_turn(const Model& model, const Proof& proof, std::string* why) {
       return refuse(why, "a pose of the goal is in the region beyond");
     }
   }
-  if (!turn_excludes_goal(model, proof)) {
+  if (!turn_excludes_goal(model, proof, breaks)) {
     return refuse(why, "the bounds on the turn allow a pose of the goal");
   }
-  return law.holds() || refuse(why, "a push may turn the object by more, or by less");
+  return law.holds(breaks) ||
+         refuse(why, "a push may turn the object by more, or by less");
 }
 
 }  // namespace prehensile

@@ -6,9 +6,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "optimisation/nonlinear_program.h"
@@ -18,6 +16,7 @@
 #include "planner/goal_cover.h"
 #include "planner/local_law.h"
 #include "planner/traced_regions.h"
+#include "planner/turn_bounder.h"
 #include "scene/outline.h"
 
 namespace prehensile {
@@ -31,39 +30,31 @@ constexpr double kHalfTurn = std::numbers::pi;
 constexpr double kAllowed = 0.01;
 
 /// Shares of the headings that are left by which such a line turns aside. Tried in order.
-constexpr std::array kAside = {0.03, 0.15};
+constexpr std::array kAside = {0.006, 0.03, 0.15};
 
 /// How far behind the start the region ahead of it begins [m], and how far beyond the
 /// goal, in its tolerances, the one from which it is reached ends. Tried in order.
-constexpr std::array kBehindStart = {5e-5, 3e-4, 1e-3};
-constexpr std::array kBeyondGoal = {1.2, 2.0, 4.0, 8.0};
+constexpr std::array kBehindStart = {1e-5, 5e-5, 3e-4, 1e-3};
+constexpr std::array kBeyondGoal = {1.01, 1.2, 1.5, 2.0, 4.0, 8.0};
 
 /// Places where the turn is looked at, at most, of a grid over the longer side.
 constexpr int kNodesPerSide = 200;
 constexpr std::size_t kMostPlaces = 60;
 
-/// Ranges of directions that are looked at.
-constexpr int kRanges = 240;
+/// Directions that are looked at there, and half of how far around each [rad].
+constexpr int kDirections = 360;
+constexpr double kHalfLooked = 1e-4;
 
-/// Of a first bound: by so much of 1 + |kappa| it is above what was seen.
-constexpr double kLittle = 0.01;
+/// How often bounds are looked for with what their check finds to break them.
+constexpr int kMostRounds = 10;
+constexpr int kMostRoundsForEnds = 2;  // of which no push does
 
 /// What the bounds leave of the way to the angles of the goal [rad], for the check. Tried
 /// in order.
-constexpr std::array kLeft = {0.1, 0.03};
+constexpr std::array kLeft = {0.1, 0.03, 0.01};
 
 /// A turn that no bound needs to keep below [rad].
 constexpr double kAnyTurn = 1e3;
-
-/// Bounds are no steeper.
-constexpr double kSteepest = 40.0;
-
-/// Of what bounds are asked to be above, only every so many are looked at at first; then
-/// those that are broken by more than a little, so many at once, so often.
-constexpr std::size_t kStride = 16;
-constexpr double kBroken = 1e-5;
-constexpr std::size_t kMostAdded = 200;
-constexpr int kMostRounds = 12;
 
 /// The middle of what is free at a place, as long as it is less than half a turn.
 std::optional<Vec2> middle_way(const FreeDirections& free) {
@@ -75,15 +66,24 @@ std::optional<Vec2> middle_way(const FreeDirections& free) {
 
 using Stopped = std::function<bool()>;
 
+/// Length [m] of a straight way from the start to beyond the goal.
+double way_to_goal(const Model& model) {
+  const Goal& goal = *model.scene.goal;
+  const Vec2 way =
+      goal_place(goal, *goal.theta) - finger_in_object(model.scene.start.X_HO);
+  return way.norm() + 3.0 * goal.position_tolerance;
+}
+
 /// A region that is never left and holds the start, or none.
 Loops region_of_start(const Model& model, const FreeAt& free_at, const Stopped& stopped) {
   const Vec2 start = finger_in_object(model.scene.start.X_HO);
   const auto way = middle_way(free_at(start));
   if (!way) return {};
+  const double closely = way_to_goal(model);
   for (const double aside : kAside) {
     for (const double behind : kBehindStart) {
       if (stopped && stopped()) return {};
-      Loops region = region_ahead(model, start - behind * *way, free_at, aside);
+      Loops region = region_ahead(model, start - behind * *way, free_at, aside, closely);
       if (region.empty() || depth_in_region(region, start) <= 0.0) continue;
       if (is_never_left(model, region)) return region;
     }
@@ -98,11 +98,12 @@ Loops region_beyond_goal(const Model& model, const FreeAt& free_at,
   const Vec2 place = goal_place(goal, *goal.theta);
   const auto way = middle_way(free_at(place));
   if (!way) return {};
+  const double closely = way_to_goal(model);
   for (const double aside : kAside) {
     for (const double tolerances : kBeyondGoal) {
       if (stopped && stopped()) return {};
       const Vec2 apex = place + tolerances * goal.position_tolerance * *way;
-      Loops region = region_not_behind(model, apex, free_at, aside);
+      Loops region = region_not_behind(model, apex, free_at, aside, closely);
       if (region.empty() || !goal_is_outside(region, goal)) continue;
       if (is_never_left(model, region)) return region;
     }
@@ -127,173 +128,23 @@ std::vector<Vec2> places_between(const Model& model, const Proof& proof) {
   return some;
 }
 
-/// A rate of turn that some contact makes, in one sense.
-struct Seen {
-  Vec2 from_start;  // [m]
-  Vec2 direction;   // of dp_OF
-  double kappa;     // sense c dtheta / |dp_OF|
-};
-
-/// The greatest at each of the places, at both ends of each range of directions.
-std::vector<Seen> seen_turns(const Model& model, const LocalLaw& law,
-                             const std::vector<Vec2>& places, double sense) {
-  constexpr double kHalf = kHalfTurn / kRanges;
+/// Adds the greatest rates of turn in one sense at each of the places, in directions all
+/// around.
+void look_around(const Model& model, const LocalLaw& law, const std::vector<Vec2>& places,
+                 double sense, TurnBounder& bounder) {
   const Vec2 start = finger_in_object(model.scene.start.X_HO);
-  std::vector<Seen> seen;
   for (const Vec2& place : places) {
     const std::array corners = {place};
-    for (int i = 0; i < kRanges; ++i) {
-      const double angle = 2.0 * kHalf * i;
+    for (int i = 0; i < kDirections; ++i) {
+      const Vec2 direction = towards(2.0 * kHalfTurn * i / kDirections);
       double most = -kInfinity;
       for (int k = 0; k < static_cast<int>(model.contacts.size()); ++k) {
-        most = std::max(most, law.most_turn(k, corners, {towards(angle), kHalf}, sense));
+        most = std::max(most, law.most_turn(k, corners, {direction, kHalfLooked}, sense));
       }
-      if (most == -kInfinity) continue;
-      for (const double end : {angle - kHalf, angle + kHalf}) {
-        seen.push_back({place - start, towards(end), most});
-      }
+      if (most > -kInfinity) bounder.add({place - start, direction, most});
     }
   }
-  return seen;
 }
-
-/// Bounds in one sense on what was seen, as linear programmes, for Ipopt. Their variables
-/// are the rate at the start, its change over `length`, and one more, which they
-/// minimise.
-class Bounds {
- public:
-  Bounds(const std::vector<Seen>& seen, const std::vector<Vec2>& ways, double length,
-         const Stopped& stopped)
-      : seen_(seen), ways_(ways), length_(length), stopped_(stopped) {}
-
-  /// The least over the ways to the goal [m].
-  std::optional<double> least_along_ways() const {
-    Rows rows;
-    for (const Seen& one : seen_) {
-      rows.add(one.direction, one.from_start / length_, 0.0,
-               one.kappa + kLittle * (1.0 + std::abs(one.kappa)));
-    }
-    for (const Vec2& way : ways_) rows.add(-way / length_, 0.5 * way / length_, 1.0, 0.0);
-    const auto x = solve(rows, kSteepest);
-    return x ? std::optional(x->back() * length_) : std::nullopt;
-  }
-
-  /// That which is above what was seen by the greatest share of 1 + |kappa|, and over the
-  /// ways at most `most` [m].
-  std::optional<TurnRate> surest(double most) const {
-    Rows rows;
-    for (const Seen& one : seen_) {
-      rows.add(one.direction, one.from_start / length_, 1.0 + std::abs(one.kappa),
-               one.kappa);
-    }
-    for (const Vec2& way : ways_) {
-      rows.add(-way / length_, 0.5 * way / length_, 0.0, -most / length_);
-    }
-    const auto x = solve(rows, 0.0);
-    if (!x) return std::nullopt;
-    return TurnRate{{(*x)[0], (*x)[1]}, Vec3((*x)[2], (*x)[3], (*x)[4]) / length_};
-  }
-
- private:
-  static constexpr int kVariables = 6;
-  using Point = std::array<double, kVariables>;
-
-  struct Rows {
-    std::vector<Point> factors;
-    std::vector<double> least;
-
-    double value(std::size_t i, std::span<const double> x) const {
-      return std::inner_product(x.begin(), x.end(), factors[i].begin(), 0.0);
-    }
-
-    /// The rate at a place, along `e`, and `of_last` times the last variable are
-    /// `at_least`.
-    void add(const Vec2& e, const Vec2& place, double of_last, double at_least) {
-      factors.push_back({e.x(), e.y(), e.x() * place.x(),
-                         e.x() * place.y() + e.y() * place.x(), e.y() * place.y(),
-                         of_last});
-      least.push_back(at_least);
-    }
-  };
-
-  /// With a few rows at first, to which those that the solution breaks are added.
-  std::optional<Point> solve(const Rows& rows, double most_of_last) const {
-    std::vector<std::size_t> some;
-    for (std::size_t i = 0; i < rows.least.size(); i += kStride) some.push_back(i);
-    for (int round = 0; round < kMostRounds; ++round) {
-      const auto x = solve(rows, some, most_of_last);
-      if (!x) return std::nullopt;
-      const auto broken = broken_by(*x, rows);
-      if (broken.empty()) return x;
-      some.insert(some.end(), broken.begin(), broken.end());
-    }
-    return std::nullopt;
-  }
-
-  /// Those that are broken most.
-  static std::vector<std::size_t> broken_by(const Point& x, const Rows& rows) {
-    std::vector<std::pair<double, std::size_t>> broken;
-    for (std::size_t i = 0; i < rows.least.size(); ++i) {
-      const double left = rows.value(i, x) - rows.least[i];
-      if (left < -kBroken) broken.emplace_back(left, i);
-    }
-    std::ranges::sort(broken);
-    broken.resize(std::min(broken.size(), kMostAdded));
-    std::vector<std::size_t> most(broken.size());
-    std::ranges::transform(broken, most.begin(),
-                           [](const auto& one) { return one.second; });
-    return most;
-  }
-
-  std::optional<Point> solve(const Rows& rows, const std::vector<std::size_t>& some,
-                             double most_of_last) const {
-    NonlinearProgram program;
-    program.start.assign(kVariables, 0.0);
-    program.lower.assign(kVariables, -kSteepest);
-    program.upper.assign(kVariables, kSteepest);
-    program.upper.back() = most_of_last;
-    program.objective = [](std::span<const double> x, std::span<double> gradient) {
-      if (!gradient.empty()) {
-        std::ranges::fill(gradient, 0.0);
-        gradient.back() = 1.0;
-      }
-      return x.back();
-    };
-    program.constraint_lower.resize(some.size());
-    std::ranges::transform(some, program.constraint_lower.begin(),
-                           [&](std::size_t i) { return rows.least[i]; });
-    program.constraint_upper.assign(some.size(), kUnbounded);
-    program.constraints = [&](std::span<const double> x, std::span<double> g) {
-      for (std::size_t k = 0; k < some.size(); ++k) g[k] = rows.value(some[k], x);
-    };
-    for (int k = 0; k < static_cast<int>(some.size()); ++k) {
-      for (int j = 0; j < kVariables; ++j) {
-        program.jacobian_rows.push_back(k);
-        program.jacobian_columns.push_back(j);
-      }
-    }
-    program.jacobian = [&](std::span<const double>, std::span<double> values) {
-      auto value = values.begin();
-      for (const std::size_t i : some) {
-        value = std::ranges::copy(rows.factors[i], value).out;
-      }
-    };
-    program.hessian = [](std::span<const double>, double, std::span<const double>,
-                         std::span<double>) {};
-    program.stop = stopped_;
-    const NlpResult result =
-        minimise_ipopt(program, {.tolerance = 1e-6, .max_evaluations = 200});
-    if (result.status != NlpStatus::kConverged) return std::nullopt;
-    Point x;
-    std::ranges::copy(result.x, x.begin());
-    return x;
-  }
-
-  const std::vector<Seen>& seen_;
-  const std::vector<Vec2>& ways_;
-  double length_;
-  const Stopped& stopped_;
-};
 
 /// From the start to places of the goal between the regions.
 std::vector<Vec2> ways_to_goal(const Model& model, const Proof& proof) {
@@ -321,7 +172,7 @@ bool enclose(const Model& model, Proof& proof, const Stopped& stopped) {
   const bool clips = has_clipped_discs(model);
   std::optional<PlaceSlacks> slacks;
   if (clips) slacks.emplace(model);
-  const FreeAt free_at = clips ? free_over_clipped_discs(model, *slacks, kAllowed)
+  const FreeAt free_at = clips ? free_closely_over_clipped_discs(model, *slacks, kAllowed)
                                : free_over_whole_pads(model);
   proof.turn.emplace();
   proof.region = region_of_start(model, free_at, stopped);
@@ -352,6 +203,74 @@ double longest(const std::vector<Vec2>& ways) {
   return length;
 }
 
+/// Looks for bounds in both senses that the check accepts: what it finds to break them is
+/// added to what they have to be above.
+class BoundSearch {
+ public:
+  BoundSearch(const Model& model, const LocalLaw& law, double length,
+              const Stopped& stopped)
+      : model_(model),
+        start_(finger_in_object(model.scene.start.X_HO)),
+        stopped_(stopped),
+        above_(length, stopped),
+        below_(length, stopped),
+        law_(law) {}
+
+  void look_around(const std::vector<Vec2>& places) {
+    prehensile::look_around(model_, law_, places, 1.0, above_);
+    prehensile::look_around(model_, law_, places, -1.0, below_);
+  }
+
+  void add_way(const Vec2& way) {
+    above_.add_way(way);
+    below_.add_way(way);
+  }
+
+  /// What a way turns at most, by what was looked at [rad].
+  std::optional<double> most() const {
+    const auto most = above_.least_along_ways();
+    return most ? std::optional(*most / model_.c) : std::nullopt;
+  }
+
+  /// Bounds between which the turns are, by `aside` [rad] more; false if there are none.
+  bool complete(const Turns& turns, double aside, Proof& proof) {
+    for (int round = 0; round < kMostRounds; ++round) {
+      if (stopped_ && stopped_()) return false;
+      const auto above = above_.surest(model_.c * (turns.next - aside));
+      const auto below = below_.surest(-model_.c * (turns.before + aside));
+      if (!above || !below) return false;
+      proof.turn->most = *above;
+      proof.turn->least = {-below->at_start, -below->bend};
+      TurnBreaks breaks;
+      if (verify_turn(model_, proof, nullptr, &breaks)) return true;
+      const bool only_ends = breaks.pushes.empty();
+      if (only_ends && (breaks.ends.empty() || round == kMostRoundsForEnds)) return false;
+      learn(breaks);
+    }
+    return false;
+  }
+
+ private:
+  void learn(const TurnBreaks& breaks) {
+    for (const TurnBreaks::Push& push : breaks.pushes) {
+      const Vec2 from_start = push.place - start_;
+      for (const double side : {-1.0, 1.0}) {
+        const Vec2 direction =
+            rotated(side * push.directions.half_angle, push.directions.middle);
+        above_.add({from_start, direction, push.most});
+        below_.add({from_start, direction, -push.least});
+      }
+    }
+    for (const Vec2& place : breaks.ends) add_way(place - start_);
+  }
+
+  const Model& model_;
+  const Vec2 start_;
+  const Stopped& stopped_;
+  TurnBounder above_, below_;
+  const LocalLaw& law_;
+};
+
 }  // namespace
 
 bool find_turn(const Model& model, Proof& proof, const Stopped& stopped) {
@@ -361,27 +280,18 @@ bool find_turn(const Model& model, Proof& proof, const Stopped& stopped) {
   const LocalLaw law = clips ? LocalLaw::of_whole_discs(model) : LocalLaw(model);
   if (!law.is_known() || (clips && !has_clipped_law(model))) return false;
   if (!enclose(model, proof, stopped) || (stopped && stopped())) return false;
-  const std::vector<Vec2> places = places_between(model, proof);
   const std::vector<Vec2> ways = ways_to_goal(model, proof);
   const double length = longest(ways);
   if (length == 0.0) return false;
-  const std::vector<Seen> most = seen_turns(model, law, places, 1.0);
-  const std::vector<Seen> least = seen_turns(model, law, places, -1.0);
-  const Bounds bounds_above(most, ways, length, stopped);
-  const Bounds bounds_below(least, ways, length, stopped);
-  const auto high = bounds_above.least_along_ways();
-  if (!high) return false;
-  const Turns turns = turns_around(model, *high / model.c);
-  for (const double left : kLeft) {
-    const double aside = angle_tolerance(goal) + left;
-    const auto above = bounds_above.surest(model.c * (turns.next - aside));
-    const auto below = bounds_below.surest(-model.c * (turns.before + aside));
-    if (!above || !below) continue;
-    proof.turn->most = *above;
-    proof.turn->least = {-below->at_start, -below->bend};
-    if (verify_turn(model, proof, nullptr)) return true;
-  }
-  return false;
+  BoundSearch bounds(model, law, length, stopped);
+  bounds.look_around(places_between(model, proof));
+  for (const Vec2& way : ways) bounds.add_way(way);
+  const auto most = bounds.most();
+  if (!most) return false;
+  const Turns turns = turns_around(model, *most);
+  return std::ranges::any_of(kLeft, [&](double left) {
+    return bounds.complete(turns, angle_tolerance(goal) + left, proof);
+  });
 }
 
 }  // namespace prehensile

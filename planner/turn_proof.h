@@ -10,7 +10,10 @@
 #pragma once
 
 #include <functional>
+#include <string>
+#include <vector>
 
+#include "planner/local_law.h"
 #include "planner/plan.h"
 
 namespace prehensile {
@@ -20,9 +23,23 @@ namespace prehensile {
 /// at every place of the region, and goals that fix the whole pose. The work is limited.
 bool find_turn(const Model& model, Proof& proof, const std::function<bool()>& stopped);
 
+/// What breaks the bounds of a proof.
+struct TurnBreaks {
+  /// A push that may turn by more than they say, or by less.
+  struct Push {
+    Vec2 place;  ///< [m]
+    DirectionSpan directions;
+    double most, least;  ///< c dtheta / |dp_OF| that the laws allow about there
+  };
+  std::vector<Push> pushes;
+  std::vector<Vec2> ends;  ///< [m] places of the goal with an angle between the bounds
+};
+
 /// Whether the proof, of kind kTurn, holds: `why` (nullptr: not wanted) says what fails.
 /// The places between the regions are covered by squares, which are cut until the laws
-/// keep every contact, in every direction, within the bounds.
-bool verify_turn(const Model& model, const Proof& proof, std::string* why);
+/// keep every contact, in every direction, within the bounds. `breaks` (nullptr: not
+/// wanted) receives some of what breaks them.
+bool verify_turn(const Model& model, const Proof& proof, std::string* why,
+                 TurnBreaks* breaks = nullptr);
 
 }  // namespace prehensile

@@ -141,6 +141,33 @@ TEST_F(Turn, RefusesBoundsThatAreNone) {
   }
 }
 
+/// What the start reaches holds no more than a corner of the goal's square: the regions
+/// have to follow it closely, and bounds that a few places suggest are mended where their
+/// check breaks them.
+TEST_F(Turn, RefusesACornerThatTurnsOtherwise) {
+  for (const Scene& scene :
+       {testing::convex_with_walls(1, 43), testing::convex_with_walls(3, 20)}) {
+    const Model model = prepare(scene);
+    const Proof proof = turn_of(model);
+    ASSERT_TRUE(proof.turn) << scene.name;
+    std::string why;
+    EXPECT_TRUE(verify(model, proof, &why)) << why;
+    Proof wrong = proof;
+    wrong.turn->most.at_start *= 0.98;
+    wrong.turn->least.at_start *= 0.98;
+    TurnBreaks breaks;
+    EXPECT_FALSE(verify_turn(model, wrong, &why, &breaks));
+    EXPECT_FALSE(breaks.pushes.empty() && breaks.ends.empty());
+    for (const TurnBreaks::Push& push : breaks.pushes) {
+      const Vec2 way = push.place - finger_in_object(scene.start.X_HO);
+      const double allowed = 1e-3 * (1.0 + std::abs(push.most) + std::abs(push.least));
+      const Vec2& direction = push.directions.middle;
+      EXPECT_TRUE(push.most > wrong.turn->most.at(way).dot(direction) - allowed ||
+                  push.least < wrong.turn->least.at(way).dot(direction) + allowed);
+    }
+  }
+}
+
 /// Goals that pushes made.
 void expect_none_before_goals_of_pushes(int problems) {
   int looked_at = 0;

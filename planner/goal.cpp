@@ -93,9 +93,12 @@ class PlaceCollector {
       add(middle + turn, place, windings, first);
       if (off <= 0.0) continue;
       for (int k = 0; k < kDirections; ++k) {
-        const Vec2 way = rotated(2.0 * kPi * k / kDirections, {1.0, 0.0});
-        const Vec2 beside = off / (shared ? 1.0 : way.cwiseAbs().maxCoeff()) * way;
+        const Vec2 beside = rotated(2.0 * kPi * k / kDirections, {off, 0.0});
         add(middle + turn, place + beside, windings, first);
+      }
+      for (int k = 0; !shared && k < 4; ++k) {
+        const Vec2 corner = rotated(0.5 * kPi * k, {off, off});
+        add(middle + turn, place + corner, windings, first);
       }
     }
   }

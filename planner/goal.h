@@ -41,7 +41,7 @@ std::optional<double> angle_between(const Model& model, const GoalPlace& place,
 /// Members of a goal set, nearest to the start first. A fixed coordinate takes its exact
 /// value; a free one keeps that of the start first, then steps through a fixed grid.
 struct GoalPlaces {
-  static constexpr int kCapacity = 84;
+  static constexpr int kCapacity = 96;
   int count = 0;
   std::array<GoalPlace, kCapacity> places;
 };

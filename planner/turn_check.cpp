@@ -31,7 +31,7 @@ constexpr int kMostQuestions = 8'000'000;
 constexpr int kMostGoalSquares = 800'000;
 
 /// How often the square of the goal's places is cut into four.
-constexpr int kMostGoalCuts = 6;
+constexpr int kMostGoalCuts = 8;
 
 constexpr double kRounding = 1e-9;  // [m] of places
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <utility>
 
 #include "planner/baselines.h"
@@ -259,29 +258,84 @@ bool has_room_for_narrow_ways(const SearchModel& search) {
   return search.margin.place == 0.0;
 }
 
-/// What may lead where a lattice does not.
-struct NarrowWays {
-  bool are_near = false;  ///< it leaves little between start and goal
-  std::vector<Rows> rows;
-};
+/// Lattice by lattice, until one has a walk.
+class Lattices {
+ public:
+  Lattices(const SearchModel& search, const FlatState& start, const GoalPlaces& goals,
+           const GoalPlaces& beside, const Limits& limits, Work& work)
+      : search_(search),
+        start_(start),
+        goals_(goals),
+        beside_(beside),
+        limits_(limits),
+        work_(work) {}
 
-/// Between the start and each of these sets of goals.
-NarrowWays narrow_ways(const SearchModel& search, const FlatState& start,
-                       std::span<const GoalPlaces* const> ends, WalkLattice& lattice,
-                       const Limits& limits, Work& work) {
-  if (lattice.slopes() > kMostSlopes) return {};
-  NarrowWays ways;
-  std::vector<WalkGap> gaps;
-  for (const GoalPlaces* goals : ends) {
-    lattice.set_ends(start, *goals);
-    const auto gap = walk_gap(lattice, limits, work);
-    if (!gap) continue;
-    gaps.push_back(*gap);
-    ways.are_near |= gap->spacings <= kNear;
+  const std::optional<std::vector<Move>>& moves() const { return moves_; }
+
+  void search_kept(WalkLattices& kept, Steepness steepness) {
+    for (const int per_side : kFewWays) {
+      if (moves_) return;
+      search_over(kept.between(search_, start_, goals_, {per_side}, steepness));
+    }
   }
-  ways.rows = rows_across(search, gaps, work);
-  return ways;
-}
+
+  /// Those of more headings, and in rows, where `last` leaves a gap that they may close.
+  void search_narrow_ways(WalkLattice& last) {
+    if (last.slopes() > kMostSlopes) return;
+    const std::vector<WalkGap> gaps = gaps_left_by(last);
+    const std::vector<Rows> ways = rows_across(search_, gaps, work_);
+    const bool are_near = std::ranges::any_of(
+        gaps, [](const WalkGap& gap) { return gap.spacings <= kNear; });
+    if (are_near || !ways.empty()) search_anew(kManyHeadings);
+    for (const Rows& rows : ways) search_in(rows);
+    for (const Fineness& fineness : kManyWays) {
+      if (are_near) search_anew(fineness);
+    }
+  }
+
+ private:
+  /// False if the lattice is too large.
+  bool search_over(WalkLattice& lattice) {
+    if (lattice.slopes() > kMostSlopes) return false;
+    moves_ = LoopSearch(search_, lattice, start_, goals_, limits_, work_).run();
+    if (moves_ || beside_.count == 0) return true;
+    lattice.set_ends(start_, beside_);
+    moves_ = LoopSearch(search_, lattice, start_, beside_, limits_, work_).run();
+    return true;
+  }
+
+  bool search_anew(const Fineness& fineness, const Rows& rows = {}) {
+    if (moves_) return true;
+    WalkLattice lattice(search_, start_, goals_, fineness, Steepness::kUsualFinely, rows);
+    return search_over(lattice);
+  }
+
+  void search_in(const Rows& rows) {
+    for (const Fineness& fineness : kInRows) {
+      if (fineness.per_side * fineness.per_side * rows.closer > kMostInRows) continue;
+      if (search_anew(fineness, rows)) return;
+    }
+  }
+
+  /// To the goals, and to those beside them.
+  std::vector<WalkGap> gaps_left_by(WalkLattice& lattice) {
+    std::vector<WalkGap> gaps;
+    for (const GoalPlaces* ends : {&goals_, &beside_}) {
+      if (ends->count == 0) continue;
+      lattice.set_ends(start_, *ends);
+      if (const auto gap = walk_gap(lattice, limits_, work_)) gaps.push_back(*gap);
+    }
+    return gaps;
+  }
+
+  const SearchModel& search_;
+  const FlatState start_;
+  const GoalPlaces& goals_;
+  const GoalPlaces& beside_;
+  const Limits& limits_;
+  Work& work_;
+  std::optional<std::vector<Move>> moves_;
+};
 
 }  // namespace
 
@@ -289,51 +343,19 @@ std::optional<std::vector<Move>> search_loops(const SearchModel& search,
                                               const FlatState& start,
                                               const GoalPlaces& goals,
                                               const GoalPlaces& beside,
-                                              Steepness steepness, WalkLattices& lattices,
+                                              Steepness steepness, WalkLattices& kept,
                                               const Limits& limits, Work& work) {
   if (!is_for_walks(search)) return std::nullopt;
-  std::optional<std::vector<Move>> moves;
-  const auto search_over = [&](WalkLattice& lattice) {
-    moves = LoopSearch(search, lattice, start, goals, limits, work).run();
-    if (moves || beside.count == 0) return;
-    lattice.set_ends(start, beside);
-    moves = LoopSearch(search, lattice, start, beside, limits, work).run();
-  };
-  const auto is_searched = [&](WalkLattice&& lattice) {
-    const bool is_small = lattice.slopes() <= kMostSlopes;
-    if (is_small) search_over(lattice);
-    return is_small;
-  };
-  const auto kept = [&](int per_side, const GoalPlaces& ends) -> WalkLattice& {
-    return lattices.between(search, start, ends, {per_side}, steepness);
-  };
-  for (const int per_side : kFewWays) {
-    if (moves) break;
-    WalkLattice& lattice = kept(per_side, goals);
-    if (lattice.slopes() <= kMostSlopes) search_over(lattice);
+  Lattices lattices(search, start, goals, beside, limits, work);
+  lattices.search_kept(kept, steepness);
+  if (!lattices.moves() && steepness == Steepness::kUsual &&
+      has_room_for_narrow_ways(search)) {
+    lattices.search_narrow_ways(
+        kept.between(search, start, goals, {kFewWays.back()}, steepness));
   }
-  if (!moves && steepness == Steepness::kUsual && has_room_for_narrow_ways(search)) {
-    const std::array ends = {&goals, &beside};
-    const NarrowWays ways =
-        narrow_ways(search, start, std::span(ends).first(beside.count > 0 ? 2 : 1),
-                    kept(kFewWays.back(), goals), limits, work);
-    const auto is_searched_finely = [&](const Fineness& fineness, const Rows& rows = {}) {
-      return is_searched({search, start, goals, fineness, Steepness::kUsualFinely, rows});
-    };
-    if (ways.are_near || !ways.rows.empty()) is_searched_finely(kManyHeadings);
-    for (const Rows& rows : ways.rows) {
-      for (const Fineness& fineness : kInRows) {
-        if (fineness.per_side * fineness.per_side * rows.closer > kMostInRows) continue;
-        if (moves || is_searched_finely(fineness, rows)) break;
-      }
-    }
-    for (const Fineness& fineness : kManyWays) {
-      if (!moves && ways.are_near) is_searched_finely(fineness);
-    }
-  }
-  if (!moves) return std::nullopt;
+  if (!lattices.moves()) return std::nullopt;
   return within_budget(work, share_of_left(work, kShareOfShortening), [&] {
-    return shortened(search, joined_moves(search, *moves), limits, work);
+    return shortened(search, joined_moves(search, *lattices.moves()), limits, work);
   });
 }
 

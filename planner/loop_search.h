@@ -24,7 +24,7 @@ std::optional<std::vector<Move>> search_loops(const SearchModel& search,
                                               const FlatState& start,
                                               const GoalPlaces& goals,
                                               const GoalPlaces& beside,
-                                              Steepness steepness, WalkLattices& lattices,
+                                              Steepness steepness, WalkLattices& kept,
                                               const Limits& limits, Work& work);
 
 }  // namespace prehensile

@@ -80,6 +80,12 @@ class LawfulPads {
   const LocalLaw law_;
 };
 
+FreeDirections free_where_clipped(const Model& model, PlaceSlacks& slacks, double allowed,
+                                  const Vec2& place) {
+  if (depth_inside(model.pad_face, place) < 0.0) return {};
+  return FreeDirections::above(slacks.at(place), -allowed);
+}
+
 template <class Pads>
 FreeAt free_over(const Model& model) {
   return [pads = std::make_shared<const Pads>(model)](const Vec2& place) {
@@ -96,19 +102,17 @@ FreeAt free_over_whole_pads(const Model& model) {
 
 FreeAt free_over_clipped_discs(const Model& model, PlaceSlacks& slacks, double allowed) {
   return [&, allowed](const Vec2& place) {
-    if (depth_inside(model.pad_face, place) < 0.0) return FreeDirections();
-    return FreeDirections::above(slacks.at(place), -allowed);
+    return free_where_clipped(model, slacks, allowed, place);
   };
 }
 
 FreeAt free_closely_over_clipped_discs(const Model& model, PlaceSlacks& slacks,
                                        double allowed) {
-  return [&model, where_whole = free_over<RoundPads>(model),
-          where_clipped =
-              free_over_clipped_discs(model, slacks, allowed)](const Vec2& place) {
-    const bool whole = model.region.is_whole(pose_from_finger(place, 0.0));
-    return whole ? where_whole(place) : where_clipped(place);
-  };
+  return
+      [&, allowed, pads = std::make_shared<const RoundPads>(model)](const Vec2& place) {
+        const bool whole = model.region.is_whole(pose_from_finger(place, 0.0));
+        return whole ? (*pads)(place) : free_where_clipped(model, slacks, allowed, place);
+      };
 }
 
 }  // namespace prehensile

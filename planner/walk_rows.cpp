@@ -86,6 +86,7 @@ std::vector<Rows> rows_across(const SearchModel& search, std::span<const WalkGap
   std::ranges::stable_sort(ways, {}, [](const NarrowWay& way) { return -way.width; });
   ways.resize(std::min(ways.size(), kMostRows));
   std::vector<Rows> rows;
+  rows.reserve(ways.size());
   for (const NarrowWay& way : ways) rows.push_back({way.heading, 1.0 / way.width});
   return rows;
 }

@@ -21,7 +21,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Lattices that are tried: those of other walks, and then some that are not kept. These
-/// take up to a second each.
+/// take a second or so each.
 constexpr std::array kFewWays = {24, 48};
 constexpr Fineness kManyHeadings = {24, 12};
 constexpr std::array<Fineness, 2> kManyWays = {{{64, 8}, {96, 5}}};
@@ -259,10 +259,10 @@ bool has_room_for_narrow_ways(const SearchModel& search) {
 }
 
 /// Lattice by lattice, until one has a walk.
-class Lattices {
+class LoopSearches {
  public:
-  Lattices(const SearchModel& search, const FlatState& start, const GoalPlaces& goals,
-           const GoalPlaces& beside, const Limits& limits, Work& work)
+  LoopSearches(const SearchModel& search, const FlatState& start, const GoalPlaces& goals,
+               const GoalPlaces& beside, const Limits& limits, Work& work)
       : search_(search),
         start_(start),
         goals_(goals),
@@ -283,7 +283,7 @@ class Lattices {
   void search_narrow_ways(WalkLattice& last) {
     if (last.slopes() > kMostSlopes) return;
     const std::vector<WalkGap> gaps = gaps_left_by(last);
-    const std::vector<Rows> ways = rows_across(search_, gaps, work_);
+    const std::vector<Rows> ways = rows_across(last, gaps, work_);
     const bool are_near = std::ranges::any_of(
         gaps, [](const WalkGap& gap) { return gap.spacings <= kNear; });
     if (are_near || !ways.empty()) search_anew(kManyHeadings);
@@ -346,16 +346,16 @@ std::optional<std::vector<Move>> search_loops(const SearchModel& search,
                                               Steepness steepness, WalkLattices& kept,
                                               const Limits& limits, Work& work) {
   if (!is_for_walks(search)) return std::nullopt;
-  Lattices lattices(search, start, goals, beside, limits, work);
-  lattices.search_kept(kept, steepness);
-  if (!lattices.moves() && steepness == Steepness::kUsual &&
+  LoopSearches searches(search, start, goals, beside, limits, work);
+  searches.search_kept(kept, steepness);
+  if (!searches.moves() && steepness == Steepness::kUsual &&
       has_room_for_narrow_ways(search)) {
-    lattices.search_narrow_ways(
+    searches.search_narrow_ways(
         kept.between(search, start, goals, {kFewWays.back()}, steepness));
   }
-  if (!lattices.moves()) return std::nullopt;
+  if (!searches.moves()) return std::nullopt;
   return within_budget(work, share_of_left(work, kShareOfShortening), [&] {
-    return shortened(search, joined_moves(search, *lattices.moves()), limits, work);
+    return shortened(search, joined_moves(search, *searches.moves()), limits, work);
   });
 }
 

@@ -128,24 +128,6 @@ std::vector<Vec2> places_between(const Model& model, const Proof& proof) {
   return some;
 }
 
-/// Adds the greatest rates of turn in one sense at each of the places, in directions all
-/// around.
-void look_around(const Model& model, const LocalLaw& law, const std::vector<Vec2>& places,
-                 double sense, TurnBounder& bounder) {
-  const Vec2 start = finger_in_object(model.scene.start.X_HO);
-  for (const Vec2& place : places) {
-    const std::array corners = {place};
-    for (int i = 0; i < kDirections; ++i) {
-      const Vec2 direction = towards(2.0 * kHalfTurn * i / kDirections);
-      double most = -kInfinity;
-      for (int k = 0; k < static_cast<int>(model.contacts.size()); ++k) {
-        most = std::max(most, law.most_turn(k, corners, {direction, kHalfLooked}, sense));
-      }
-      if (most > -kInfinity) bounder.add({place - start, direction, most});
-    }
-  }
-}
-
 /// From the start to places of the goal between the regions.
 std::vector<Vec2> ways_to_goal(const Model& model, const Proof& proof) {
   constexpr int kAngles = 2;
@@ -216,9 +198,13 @@ class BoundSearch {
         below_(length, stopped),
         law_(law) {}
 
-  void look_around(const std::vector<Vec2>& places) {
-    prehensile::look_around(model_, law_, places, 1.0, above_);
-    prehensile::look_around(model_, law_, places, -1.0, below_);
+  /// Adds the greatest rates of turn in both senses, in directions all around a place.
+  void look_around(const Vec2& place) {
+    for (int i = 0; i < kDirections; ++i) {
+      const Vec2 direction = towards(2.0 * kHalfTurn * i / kDirections);
+      add_most(place, direction, 1.0, above_);
+      add_most(place, direction, -1.0, below_);
+    }
   }
 
   void add_way(const Vec2& way) {
@@ -251,6 +237,16 @@ class BoundSearch {
   }
 
  private:
+  void add_most(const Vec2& place, const Vec2& direction, double sense,
+                TurnBounder& bounder) const {
+    const std::array corners = {place};
+    double most = -kInfinity;
+    for (int k = 0; k < static_cast<int>(model_.contacts.size()); ++k) {
+      most = std::max(most, law_.most_turn(k, corners, {direction, kHalfLooked}, sense));
+    }
+    if (most > -kInfinity) bounder.add({place - start_, direction, most});
+  }
+
   void learn(const TurnBreaks& breaks) {
     for (const TurnBreaks::Push& push : breaks.pushes) {
       const Vec2 from_start = push.place - start_;
@@ -284,7 +280,7 @@ bool find_turn(const Model& model, Proof& proof, const Stopped& stopped) {
   const double length = longest(ways);
   if (length == 0.0) return false;
   BoundSearch bounds(model, law, length, stopped);
-  bounds.look_around(places_between(model, proof));
+  for (const Vec2& place : places_between(model, proof)) bounds.look_around(place);
   for (const Vec2& way : ways) bounds.add_way(way);
   const auto most = bounds.most();
   if (!most) return false;

@@ -9,8 +9,8 @@
 namespace prehensile {
 
 struct WalkGap {
-  double spacings = 0.0;  ///< of the lattice
-  Vec2 from, to;          ///< [m] the places, in O
+  double spacings = 0.0;                        ///< of the lattice
+  Vec2 from = Vec2::Zero(), to = Vec2::Zero();  ///< [m] the places, in O
 };
 
 /// Between the nearest places of which walks from the start come to one and walks lead

@@ -147,7 +147,8 @@ KappaRanges WalkLattice::KeptRanges::ranges() const {
   return ranges;
 }
 
-KappaRanges WalkLattice::slopes_along(Node& node, int contact, DirectedDrag& drag) const {
+KappaRanges WalkLattice::slopes_along(const Node& node, int contact,
+                                      DirectedDrag& drag) const {
   if (!node.held[contact]) return {};
   return drag.kappas(weak_[contact], node.p_OF);
 }
@@ -310,6 +311,23 @@ const std::vector<WalkEdge>& WalkLattice::edges_from(int index, Work& work) {
     }
   }
   return node.edges;
+}
+
+FreeDirections WalkLattice::headings_at(const Vec2& p_OF, Work& work) const {
+  Node node{p_OF};
+  find_held(node, work);
+  const PadsAtPlace pads(model_, p_OF);
+  if (pads.are_lost() || std::ranges::none_of(node.held, [](char yes) { return yes; })) {
+    return {};
+  }
+  return FreeDirections::where([&](double angle) {
+    ++work.other;
+    DirectedDrag drag(model_, pads, -towards(angle), steepness_);
+    for (int k = 0; k < contacts_; ++k) {
+      if (slopes_along(node, k, drag).count > 0) return true;
+    }
+    return false;
+  });
 }
 
 WalkLattice& WalkLattices::between(const SearchModel& search, const FlatState& start,

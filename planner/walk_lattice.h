@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "planner/free_directions.h"
 #include "planner/goal.h"
 #include "planner/level_set.h"
 #include "planner/place_law.h"
@@ -73,6 +74,10 @@ class WalkLattice {
   /// The pushes from a node, from when they are first asked for.
   const std::vector<WalkEdge>& edges_from(int node, Work& work);
 
+  /// Headings of the finger axis that some contact sticks along at a place, at some rate
+  /// of turn.
+  FreeDirections headings_at(const Vec2& p_OF, Work& work) const;
+
   /// What one of them is found to produce, until other ends are set.
   void narrow(int node, int edge, double lo, double hi);
 
@@ -110,7 +115,7 @@ class WalkLattice {
   void add_steps(int stride);
   void find_held(Node& node, Work& work) const;
   void find_slopes(Node& node, Work& work);
-  KappaRanges slopes_along(Node& node, int contact, DirectedDrag& drag) const;
+  KappaRanges slopes_along(const Node& node, int contact, DirectedDrag& drag) const;
   using OfContacts = std::vector<KappaRanges>;
   OfContacts slopes_of_step(std::size_t step, const Node& from, const Node& to) const;
   void look_between(int from, int to, std::size_t step, OfContacts& slopes, Work& work);

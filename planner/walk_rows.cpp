@@ -1,12 +1,10 @@
 #include "planner/walk_rows.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "planner/free_directions.h"
-#include "planner/holding.h"
 
 namespace prehensile {
 namespace {
@@ -17,8 +15,8 @@ constexpr int kPlaces = 9;
 /// Rows, at most: a lattice takes a second.
 constexpr std::size_t kMostRows = 2;
 
-/// Ways that are wider have headings in other lattices, and narrower ones have none that
-/// stick with the real pads [rad].
+/// Ways that are wider have headings in other lattices, and narrower ones would take more
+/// rows than are worth it [rad].
 constexpr double kWidest = 0.25;
 constexpr double kNarrowest = 0.003;
 
@@ -30,28 +28,6 @@ constexpr double kAlikeWidths = 3.0;
 struct NarrowWay {
   double heading = 0.0, width = 0.0;  // [rad]
 };
-
-/// Headings of the finger axis that some contact sticks along at a place, at some rate of
-/// turn.
-FreeDirections headings_at(const SearchModel& search, const Vec2& p_OF, Work& work) {
-  const Model& model = *search.model;
-  const PadsAtPlace pads(model, p_OF);
-  std::vector<StickContact> held;
-  for (const SearchContact& contact : search.contacts) {
-    const Vec2& g_O = model.contacts[contact.contact].g_O;
-    if (pads_hold_gravity(model, pose_from_finger(p_OF, 0.0), g_O, work)) {
-      held.push_back(contact.stick);
-    }
-  }
-  if (pads.are_lost() || held.empty()) return {};
-  return FreeDirections::where([&](double angle) {
-    ++work.other;
-    DirectedDrag drag(model, pads, -towards(angle));
-    return std::ranges::any_of(held, [&](const StickContact& contact) {
-      return drag.kappas(contact, p_OF).count > 0;
-    });
-  });
-}
 
 /// What the headings at a place leave out is less than half a turn by the width of the
 /// way, so that the headings to either side of its axis lead along it to and fro.
@@ -73,14 +49,14 @@ void add_narrow(const NarrowWay& way, std::vector<NarrowWay>& ways) {
 
 }  // namespace
 
-std::vector<Rows> rows_across(const SearchModel& search, std::span<const WalkGap> gaps,
+std::vector<Rows> rows_across(const WalkLattice& lattice, std::span<const WalkGap> gaps,
                               Work& work) {
   std::vector<NarrowWay> ways;
   for (const WalkGap& gap : gaps) {
     if (gap.spacings == 0.0) continue;
     for (int i = 0; i < kPlaces; ++i) {
       const Vec2 place = gap.from + i * (gap.to - gap.from) / (kPlaces - 1);
-      add_narrow(way_between(headings_at(search, place, work)), ways);
+      add_narrow(way_between(lattice.headings_at(place, work)), ways);
     }
   }
   std::ranges::stable_sort(ways, {}, [](const NarrowWay& way) { return -way.width; });

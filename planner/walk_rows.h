@@ -12,10 +12,10 @@
 
 namespace prehensile {
 
-/// Rows along such headings at some places across gaps, those whose way is widest first:
-/// lattices with these rows have some headings within it. None where walks leave no gap
-/// or no way is narrow.
-std::vector<Rows> rows_across(const SearchModel& search, std::span<const WalkGap> gaps,
+/// Rows along such headings at some places across gaps that a lattice leaves, those whose
+/// way is widest first: lattices with these rows have some headings within it. None where
+/// walks leave no gap or no way is narrow.
+std::vector<Rows> rows_across(const WalkLattice& lattice, std::span<const WalkGap> gaps,
                               Work& work);
 
 }  // namespace prehensile

@@ -31,9 +31,12 @@ Scene box_between_two_walls(double mu) {
 std::vector<Rows> rows_in(const Scene& scene, double gap_spacings) {
   const Model model = prepare(scene);
   const SearchModel search = prepare_search(model, Margin::none());
+  const FlatState start = flat_state(scene.start);
+  const WalkLattice lattice(search, start, goal_places(model, *scene.goal, start), {8},
+                            Steepness::kUsual);
   Work work{.budget = testing::kNoBudget};
   const WalkGap gap{gap_spacings, Vec2(-0.002, 0.001), Vec2(0.003, 0.002)};
-  return rows_across(search, {{gap}}, work);
+  return rows_across(lattice, {{gap}}, work);
 }
 
 /// Headings within atan(mu) of two normals at a right angle take up 2 atan(mu) + 90

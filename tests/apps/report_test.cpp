@@ -15,6 +15,7 @@
 #include "primitives/transition.h"
 #include "tests/apps/program.h"
 #include "tests/plot/svg_text.h"
+#include "tests/support/folder.h"
 
 namespace prehensile::testing {
 namespace {
@@ -24,12 +25,12 @@ namespace fs = std::filesystem;
 /// The page, written once.
 const std::string& page() {
   static const std::string kPage = [] {
-    const fs::path file = fs::temp_directory_path() / "prehensile_report_test.html";
+    const Folder folder;
+    const fs::path file = folder / "report.html";
     const Outcome out = run_program("report -o " + file.string());
     EXPECT_EQ(out.exit_code, 0) << out.err;
     std::stringstream text;
     text << std::ifstream(file).rdbuf();
-    fs::remove(file);
     return text.str();
   }();
   return kPage;
@@ -145,11 +146,11 @@ TEST(Report, NumbersAreThoseOfTheLibrary) {
 }
 
 TEST(Report, ThePageIsTheSameEveryTime) {
-  const fs::path file = fs::temp_directory_path() / "prehensile_report_again.html";
+  const Folder folder;
+  const fs::path file = folder / "report.html";
   ASSERT_EQ(run_program("report -o " + file.string()).exit_code, 0);
   std::stringstream text;
   text << std::ifstream(file).rdbuf();
-  fs::remove(file);
   EXPECT_EQ(text.str(), page());
   EXPECT_EQ(run_program("report -o /nowhere/report.html").exit_code, 2);
   EXPECT_EQ(run_program("report").exit_code, 2);

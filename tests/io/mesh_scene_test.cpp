@@ -8,6 +8,7 @@
 #include "mechanics/model.h"
 #include "problems/extruded_mesh.h"
 #include "tests/io/files.h"
+#include "tests/support/folder.h"
 
 namespace prehensile::testing {
 namespace {
@@ -16,21 +17,15 @@ namespace fs = std::filesystem;
 
 const fs::path kProblems = fs::path(PREHENSILE_SOURCE_DIR) / "problems";
 
-/// A folder with a mesh and a scene around it, removed afterwards.
+/// A folder with a mesh and a scene around it.
 class MeshScene : public ::testing::Test {
  protected:
-  MeshScene() : folder_(fs::temp_directory_path() / unique_name()) {
+  MeshScene() {
     fs::create_directories(folder_ / "scene");
-    write(folder_ / "scene" / "part.obj", to_obj({bracket()}));
+    write(folder_.path("scene") / "part.obj", to_obj({bracket()}));
     write(folder_ / "outside.obj", to_obj({bracket()}));
   }
-  ~MeshScene() override { fs::remove_all(folder_); }
 
-  static std::string unique_name() {
-    return "prehensile_mesh_" +
-           std::to_string(::testing::UnitTest::GetInstance()->random_seed()) + "_" +
-           ::testing::UnitTest::GetInstance()->current_test_info()->name();
-  }
   static void write(const fs::path& file, const std::string& text) {
     std::ofstream(file, std::ios::binary) << text;
   }
@@ -38,7 +33,7 @@ class MeshScene : public ::testing::Test {
   /// Reads the scene with this mesh map; the message if it is refused.
   std::string read(const std::string& mesh, const std::string& mass = ", mass: 0.2",
                    const std::string& start = "") {
-    const fs::path file = folder_ / "scene" / "scene.yaml";
+    const fs::path file = folder_.path("scene") / "scene.yaml";
     write(file, "version: 1\nobject: {mesh: {" + mesh + "}" + mass +
                     "}\ngripper: {pad: {disc: {radius: 0.006}}, friction: 0.5, "
                     "grip_force: 20}\n" +
@@ -51,7 +46,7 @@ class MeshScene : public ::testing::Test {
     }
   }
 
-  fs::path folder_;
+  const Folder folder_;
   Scene scene_;
 };
 
@@ -68,7 +63,7 @@ TEST_F(MeshScene, BecomesASolidThatTravelsWithTheScene) {
 }
 
 TEST_F(MeshScene, FilesOutsideTheFolderAreRefused) {
-  fs::create_symlink(folder_ / "outside.obj", folder_ / "scene" / "link.obj");
+  fs::create_symlink(folder_ / "outside.obj", folder_.path("scene") / "link.obj");
   for (const std::string& file :
        {std::string("../outside.obj"), (folder_ / "outside.obj").string(),
         std::string("x/../../outside.obj"), std::string("link.obj"), std::string(".")}) {
@@ -98,19 +93,19 @@ TEST_F(MeshScene, PairsAreChosenByNameOrByDirection) {
 TEST_F(MeshScene, TheMassMayStandInADescriptionBesideIt) {
   EXPECT_NE(read("file: part.obj, unit: mm", "").find("object.mass: missing"),
             std::string::npos);
-  write(folder_ / "scene" / "part.urdf",
+  write(folder_.path("scene") / "part.urdf",
         "<?xml version=\"0.0\" ?>\n<robot name=\"r\"><link name=\"l\"><inertial>"
         "<mass value=\".411\"/></inertial></link></robot>\n");
   ASSERT_EQ(read("file: part.obj, unit: mm", ""), "");
   EXPECT_DOUBLE_EQ(scene_.object.mass, 0.411);
   ASSERT_EQ(read("file: part.obj, unit: mm"), "");
   EXPECT_DOUBLE_EQ(scene_.object.mass, 0.2);
-  write(folder_ / "scene" / "part.urdf", "<robot><link>");
+  write(folder_.path("scene") / "part.urdf", "<robot><link>");
   EXPECT_NE(read("file: part.obj, unit: mm", "").find("part.urdf"), std::string::npos);
 }
 
 TEST_F(MeshScene, RefusalsOfTheMeshNameTheField) {
-  write(folder_ / "scene" / "part.obj", "v 0 0 0\n");
+  write(folder_.path("scene") / "part.obj", "v 0 0 0\n");
   EXPECT_NE(read("file: part.obj, unit: mm").find("object.mesh.file"), std::string::npos);
   EXPECT_NE(read("file: none.obj, unit: mm").find("cannot be read"), std::string::npos);
 }

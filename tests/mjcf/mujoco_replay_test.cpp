@@ -12,6 +12,7 @@
 #include "planner/planner.h"
 #include "primitives/transition.h"
 #include "tests/io/files.h"
+#include "tests/support/folder.h"
 
 namespace prehensile::mjcf {
 namespace {
@@ -218,12 +219,11 @@ TEST(MujocoReplay, TheFileAloneMakesThePush) {
   const Model model = prepare(bar_scene(), {.points_per_pad = 4});
   const Plan plan = plan_of(model, Slide{.e = kX, .travel = 4e-3});
   const std::string text = file_text(model, plan.pushes);
-  const std::string file =
-      (std::filesystem::temp_directory_path() / "prehensile_mjcf_test.xml").string();
+  const testing::Folder folder;
+  const std::string file = folder.path("push.xml").string();
   std::ofstream(file) << text;
   std::array<char, 500> error{};
   mjModel* m = mj_loadXML(file.c_str(), nullptr, error.data(), error.size());
-  std::filesystem::remove(file);
   ASSERT_NE(m, nullptr) << error.data();
   mjData* d = mj_makeData(m);
   mj_resetDataKeyframe(m, d, mj_name2id(m, mjOBJ_KEY, "push_1"));

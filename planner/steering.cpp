@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "planner/clear_places.h"
 #include "planner/confines.h"
 #include "planner/placement.h"
 #include "planner/ring_kappas.h"
@@ -214,6 +215,7 @@ SearchModel prepare_search(const Model& model, const Margin& margin) {
   }
   add_contacts(model, margin, search.contacts);
   search.confines = Confines::of(search);
+  add_clear_places(model, search);
   return search;
 }
 

@@ -1,7 +1,10 @@
 #include "planner/cheapen.h"
 
+#include <cstdint>
 #include <utility>
 
+#include "planner/chain_search.h"
+#include "planner/roll_step.h"
 #include "planner/shorten.h"
 #include "planner/walk_search.h"
 
@@ -11,6 +14,7 @@ namespace {
 /// Of what is left of the budget.
 constexpr double kShareOfPairs = 0.6;
 constexpr double kShareOfWalk = 0.3;
+constexpr double kShareOfContacts = 0.5;
 
 void enter(const char* stage, double cost, Work& work) {
   if (!work.meter) return;
@@ -30,6 +34,47 @@ std::vector<Move> cheaper_by_pairs(const SearchModel& search, std::vector<Move> 
   });
   if (work.meter) work.meter->found(cost_of(search, moves));
   return moves;
+}
+
+void cheaper_with_real_pads(const FlatState& start, const GoalPlaces& goals,
+                            const GoalPlaces& beside, const Limits& limits, Work& work,
+                            BestMoves& best) {
+  const SearchModel& search = best.search();
+  if (can_roll(search.model->scene.object)) return;
+  const PadEnvelope pads(*search.model, search.margin);
+  for (const GoalPlaces* places : {&goals, &beside}) {
+    const auto found =
+        search_chains_of_real_pads(search, start, *places, &pads, limits, work);
+    if (!found) continue;
+    best.offer(moves_of(search, start, found->chain),
+               places == &goals ? 1.0 : kWorthTolerance);
+  }
+}
+
+void cheaper_by_one_contact(const FlatState& start, const GoalPlaces& goals,
+                            const GoalPlaces& beside, const Limits& limits, Work& work,
+                            BestMoves& best) {
+  const SearchModel& search = best.search();
+  enter("walks by one contact", best.cost(), work);
+  const std::int64_t share =
+      share_of_left(work, kShareOfContacts / static_cast<double>(search.contacts.size()));
+  for (int i = 0; i < static_cast<int>(search.contacts.size()); ++i) {
+    SearchModel one = search;
+    one.contacts = {search.contacts[i]};
+    WalkLattices lattices;
+    within_budget(work, share, [&] {
+      for (const GoalPlaces* places : {&goals, &beside}) {
+        const double worth = places == &goals ? 1.0 : kWorthTolerance;
+        auto moves = search_walks(one, start, *places, worth * best.cost(), lattices,
+                                  limits, work);
+        if (!moves) continue;
+        for (Move& move : *moves) move.contact = i;
+        best.offer(std::move(*moves), worth);
+      }
+      return true;
+    });
+  }
+  if (work.meter) work.meter->found(best.cost());
 }
 
 std::vector<Move> cheaper_by_walk(const SearchModel& search, const FlatState& start,

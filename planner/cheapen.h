@@ -9,6 +9,7 @@
 
 #include <vector>
 
+#include "planner/best_moves.h"
 #include "planner/goal.h"
 #include "planner/limits.h"
 
@@ -27,6 +28,19 @@ inline constexpr double kDearPair = 8.0;
 /// Two pushes through a node of a lattice take the place of many.
 std::vector<Move> cheaper_by_pairs(const SearchModel& search, std::vector<Move> moves,
                                    const Limits& limits, Work& work);
+
+/// Two pushes with what the pads themselves allow at every angle, to the goals and, where
+/// that is worth it, beside them: over the ellipsoid some are hidden that are cheaper, as
+/// where gravity lets one contact carry the object aside while it turns.
+void cheaper_with_real_pads(const FlatState& start, const GoalPlaces& goals,
+                            const GoalPlaces& beside, const Limits& limits, Work& work,
+                            BestMoves& best);
+
+/// Walks by a single contact, each in turn, to the same places: they take tenths of a
+/// second each.
+void cheaper_by_one_contact(const FlatState& start, const GoalPlaces& goals,
+                            const GoalPlaces& beside, const Limits& limits, Work& work,
+                            BestMoves& best);
 
 /// J from which a walk is looked for in the stead of few pushes, which takes a second.
 inline constexpr double kWorthWalk = 20.0;

@@ -3,181 +3,28 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
-#include "planner/bounds.h"
 #include "planner/catalogue.h"
-#include "planner/chain_search.h"
 #include "planner/cheapen.h"
-#include "planner/confines.h"
 #include "planner/fallback.h"
-#include "planner/fan_search.h"
-#include "planner/holding.h"
 #include "planner/loop_search.h"
+#include "planner/plane_search.h"
 #include "planner/roll_step.h"
-#include "planner/shorten.h"
-#include "planner/walk_search.h"
-#include "planner/wound_search.h"
+#include "planner/walk_lattice.h"
 
 namespace prehensile {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr const char* kOwnPlanner = "push";
 
-/// The contact with the most slack for one straight move, by the real pad alone.
-std::optional<Move> best_contact(const SearchModel& search, const FlatState& from,
-                                 const FlatState& to, Work& work) noexcept {
-  std::optional<Move> best;
-  double best_slack = -kStickTolerance;
-  for (std::size_t i = 0; i < search.contacts.size(); ++i) {
-    const Move move{static_cast<int>(i), from, to};
-    const double slack = exact_slack(search, move, work);
-    if (!(slack >= -kStickTolerance)) {
-      work.stopped_by.add(constraint_of(search.contacts[i], from.p_OF, to.p_OF));
-    }
-    if (!(slack > best_slack) || !pads_hold_gravity(search, move, work) ||
-        !is_confined(search, move, work)) {
-      continue;
-    }
-    best_slack = slack;
-    best = move;
-  }
-  return best;
-}
-
-/// Chains and fans of the stages that know the pads themselves. `best`: the plan so far,
-/// to be improved.
-std::optional<std::vector<Move>> search_with_real_pads(const SearchModel& search,
-                                                       const FlatState& from,
-                                                       const GoalPlaces& goals,
-                                                       std::optional<FoundChain> best,
-                                                       const Limits& limits, Work& work) {
-  const bool flat = !can_roll(search.model->scene.object);
-  std::optional<PadEnvelope> envelope;
-  if (flat) envelope.emplace(*search.model, search.margin);
-  const PadEnvelope* pads = envelope ? &*envelope : nullptr;
-  if (!best) best = search_exact_chains(search, from, goals, limits, work);
-  if (!best) best = search_chains_of_real_pads(search, from, goals, pads, limits, work);
-  std::optional<std::vector<Move>> moves;
-  if (!best && pads) moves = search_fan(search, *pads, from, goals, limits, work);
-  const double to_beat = best    ? best->chain.cost
-                         : moves ? cost_of(search, *moves)
-                                 : kInfinity;
-  if (moves && work.meter) work.meter->found(to_beat);
-  const bool is_dear = best && to_beat >= (best->chain.count > 2 ? kDear : kDearPair);
-  if (limits.improves() || is_dear || (!best && !search.exact_everywhere)) {
-    const auto found =
-        search_long_chains(search, from, goals, pads, to_beat, limits, work);
-    if (found) best = found;
-  }
-  if (best) moves = moves_of(search, from, best->chain);
-  return moves;
-}
-
-/// Of what is left of the budget, for walks around one loop.
-constexpr double kShareOfLoops = 0.7;
-
-/// J from which one of these is looked at by cheaper_by_walk.
-constexpr double kWorthWalkOfLoops = 3.0;
-
-/// The stages that cost more, and find what the ellipsoid hides; what they find is made
-/// cheaper where it is dear. `beside`: of places beside the goals, for walks around a
-/// loop; null: none of these. `best`: the plan so far, to be improved.
-bool plan_with_real_pads(const SearchModel& search, const FlatState& from,
-                         const GoalPlaces& goals, const GoalPlaces* beside,
-                         std::optional<FoundChain> best, WalkLattices& lattices,
-                         const Limits& limits, Work& work, Plan& plan) {
-  auto moves = search_with_real_pads(search, from, goals, std::move(best), limits, work);
-  double worth_walk = kWorthWalk;
-  if (!moves && beside) {
-    worth_walk = kWorthWalkOfLoops;
-    moves = within_budget(work, share_of_left(work, kShareOfLoops), [&] {
-      return search_loops(search, from, goals, *beside, Steepness::kUsual, lattices,
-                          limits, work);
-    });
-  }
-  const bool is_walk = !moves;
-  if (is_walk) {
-    moves = search_walks(search, from, goals, kInfinity, lattices, limits, work);
-  }
+/// False if there are none.
+bool append_moves(const SearchModel& search,
+                  const std::optional<std::vector<Move>>& moves, Plan& plan) {
   if (!moves) return false;
-  moves = cheaper_by_pairs(search, std::move(*moves), limits, work);
-  if (!is_walk) {
-    moves = cheaper_by_walk(search, from, goals, std::move(*moves), worth_walk, lattices,
-                            limits, work);
-  }
   for (const Move& move : *moves) append_move(search, move, plan);
   return true;
-}
-
-/// Over whole discs only, where the search knows the pads: elsewhere plans to the goal
-/// itself fail their exact check often enough. One straight push to a place beside the
-/// goal, or two by way of a crossing of cone lines.
-std::optional<std::vector<Move>> search_within_tolerance(const SearchModel& search,
-                                                         const FlatState& from,
-                                                         const Goal& goal,
-                                                         const Limits& limits,
-                                                         Work& work) {
-  if (!search.exact_everywhere) return std::nullopt;
-  const GoalPlaces places = tolerated_places(*search.model, goal, from);
-  if (const auto move = direct_push(search, from, places, work)) {
-    return std::vector{*move};
-  }
-  const auto found = search_crossings(search, from, places, limits, work);
-  if (!found) return std::nullopt;
-  return moves_of(search, from, found->chain);
-}
-
-/// Fills the pushes in the pad plane; false if none were found.
-bool plan_in_plane(const SearchModel& search, const Grasp& start, const Goal& goal,
-                   WalkLattices& lattices, const Limits& limits, Work& work, Plan& plan) {
-  const FlatState from = flat_state(start);
-  const GoalPlaces goals = goal_places(*search.model, goal, from);
-  if (const auto move = direct_push(search, from, goals, work)) {
-    append_move(search, *move, plan);
-    return true;
-  }
-  const double bound = guide_bound(*search.model, start, goal);
-  if (work.meter) work.meter->bound(trivial_bound(*search.model, start, goal));
-  const auto found = search_chains(search, from, goals, bound, limits, work);
-  if (const auto near = search_within_tolerance(search, from, goal, limits, work)) {
-    const double to_beat = found ? kWorthTolerance * found->chain.cost : kInfinity;
-    if (cost_of(search, *near) < to_beat) {
-      for (const Move& move : *near) append_move(search, move, plan);
-      return true;
-    }
-  }
-  if (!found && !limits.improves() && !limits.reached()) {
-    if (const auto wound = search_wound(search, from, goal, goals, bound, limits, work)) {
-      for (const Move& move : *wound) append_move(search, move, plan);
-      return true;
-    }
-  }
-  const double enough = limits.improves() ? kGoodEnough * bound : kDearPair;
-  if (found && found->chain.cost <= enough) {
-    append_chain(search, from, found->chain, plan);
-    return true;
-  }
-  const GoalPlaces beside = tolerated_places(*search.model, goal, from);
-  return plan_with_real_pads(search, from, goals, &beside, found, lattices, limits, work,
-                             plan);
-}
-
-/// The stages of more than two pushes once more, to places that are off the goal by up to
-/// its tolerances.
-bool plan_beside_goal(const SearchModel& search, const Grasp& start, const Goal& goal,
-                      WalkLattices& lattices, const Limits& limits, Work& work,
-                      Plan& plan) {
-  const FlatState from = flat_state(start);
-  const GoalPlaces places = tolerated_places(*search.model, goal, from);
-  if (places.count == 0) return false;
-  const double bound = guide_bound(*search.model, start, goal);
-  const auto found = search_chains(search, from, places, bound, limits, work);
-  return plan_with_real_pads(search, from, places, nullptr, found, lattices, limits, work,
-                             plan);
 }
 
 /// Loops once more, of pushes that turn the object more for their way.
@@ -188,10 +35,8 @@ bool plan_by_steep_loops(const SearchModel& search, const Grasp& start, const Go
   auto moves = search_loops(search, from, goal_places(*search.model, goal, from),
                             tolerated_places(*search.model, goal, from),
                             Steepness::kSteep, lattices, limits, work);
-  if (!moves) return false;
-  moves = cheaper_by_pairs(search, std::move(*moves), limits, work);
-  for (const Move& move : *moves) append_move(search, move, plan);
-  return true;
+  if (moves) moves = cheaper_by_pairs(search, std::move(*moves), limits, work);
+  return append_moves(search, moves, plan);
 }
 
 /// A baseline with work of its own.
@@ -203,7 +48,7 @@ bool plan_by_fallback(const SearchModel& search, const Grasp& start, const Goal&
   auto moves = fall_back(search, start, goal, options, budget, work);
   if (!moves) return false;
   moves = cheaper_by_pairs(search, std::move(*moves), limits, work);
-  for (const Move& move : *moves) append_move(search, move, plan);
+  append_moves(search, moves, plan);
   plan.planner += std::string("+") + kFallbackPlanner;
   return true;
 }
@@ -238,7 +83,8 @@ bool plan_in_shares(const SearchModel& search, const Grasp& start, const Goal& g
   const std::int64_t of_steep =
       search.model->scene.obstacles ? 0 : share_of_left(work, kShareOfSteepLoops);
   work.budget = whole - of_fallback - of_steep;
-  const bool exact = plan_in_plane(search, start, goal, lattices, limits, work, plan);
+  const bool exact = append_moves(
+      search, search_plane(search, start, goal, lattices, limits, work), plan);
   work.budget = whole;
   if (exact || limits.reached() || search.contacts.empty()) return exact;
   if (plan_by_fallback(search, start, goal, options, limits, of_fallback, work, plan)) {
@@ -246,7 +92,8 @@ bool plan_in_shares(const SearchModel& search, const Grasp& start, const Goal& g
   }
   if (work.meter) work.meter->enter("beside the goal");
   work.budget = whole - of_steep;
-  const bool beside = plan_beside_goal(search, start, goal, lattices, limits, work, plan);
+  const bool beside = append_moves(
+      search, search_beside_goal(search, start, goal, lattices, limits, work), plan);
   work.budget = whole;
   if (beside) return true;
   if (work.meter) work.meter->enter("steep loops");
@@ -309,29 +156,6 @@ void go_by_roll_place(const SearchModel& search, const Goal& planar, double dpsi
 }
 
 }  // namespace
-
-std::optional<Move> direct_push(const SearchModel& search, const FlatState& start,
-                                const GoalPlaces& goals, Work& work) noexcept {
-  std::optional<Move> best;
-  double best_distance = kInfinity;
-  for (int i = 0; i < goals.count; ++i) {
-    const GoalPlace& place = goals.places[i];
-    bool on_object = false;
-    for (int j = 0; j < place.count; ++j) {
-      const FlatState end{place.p_OF, place.theta[j]};
-      const double distance = flat_distance(*search.model, start, end);
-      if (distance >= best_distance) continue;
-      on_object = on_object || path_on_object(*search.model, {start.p_OF, true},
-                                              {place.p_OF, true}, search.margin);
-      if (!on_object) break;
-      if (const auto move = best_contact(search, start, end, work)) {
-        best = move;
-        best_distance = distance;
-      }
-    }
-  }
-  return best;
-}
 
 Plan blank_plan(const SearchModel& search, const Grasp& start,
                 const PlanOptions& options) {

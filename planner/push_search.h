@@ -5,8 +5,6 @@
 /// compare the motion-cone planners of Chavan-Dafle, Holladay and Rodriguez (2018, 2020).
 #pragma once
 
-#include <optional>
-
 #include "planner/chain.h"
 #include "planner/frame.h"
 #include "planner/goal.h"
@@ -24,7 +22,6 @@ namespace prehensile {
 ///
 /// Status: kReachedGoal (pushes with start and end poses; forces and certificates still
 /// unset), kBudgetSpent, kStopped, kUnsupported (a roll is wanted and none is possible).
-/// The stage of the direct push uses no heap.
 Plan search_pushes(const SearchModel& search, const Grasp& start, const Goal& goal,
                    const PlanOptions& options, Work& work);
 
@@ -33,11 +30,6 @@ Plan search_pushes(const SearchModel& search, const Grasp& start, const Goal& go
 void conclude_search(const SearchModel& search, const Goal& goal,
                      const PlanOptions& options, bool found, const Limits& limits,
                      Plan& plan);
-
-/// The shortest single push to a place of the goal set, by the contact with the most
-/// slack. No heap.
-std::optional<Move> direct_push(const SearchModel& search, const FlatState& start,
-                                const GoalPlaces& goals, Work& work) noexcept;
 
 /// A plan without pushes for this question: names, margin, seed, start.
 Plan blank_plan(const SearchModel& search, const Grasp& start,

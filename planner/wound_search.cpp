@@ -2,7 +2,7 @@
 
 #include "planner/chain_search.h"
 #include "planner/cheapen.h"
-#include "planner/push_search.h"
+#include "planner/direct_push.h"
 #include "planner/shorten.h"
 
 namespace prehensile {

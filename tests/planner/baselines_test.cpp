@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/push_search.h"
+#include "planner/direct_push.h"
 #include "planner/replay.h"
 #include "tests/planner/executed_pushes.h"
 #include "tests/planner/planner_cases.h"

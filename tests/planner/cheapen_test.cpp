@@ -1,9 +1,11 @@
 #include "planner/cheapen.h"
 
+#include <cstdio>
 #include <limits>
 
 #include <gtest/gtest.h>
 
+#include "planner/chain_search.h"
 #include "planner/shorten.h"
 #include "planner/walk_lattice.h"
 #include "problems/random_fixtures.h"
@@ -85,6 +87,50 @@ TEST(Cheapen, PlansAreNotDearWithoutNeed) {
     ASSERT_EQ(plan.status, PlanStatus::kReachedGoal) << scene.name;
     EXPECT_LT(plan.cost, 20.0) << scene.name;
   }
+}
+
+/// Pushes by one contact that gravity helps, which the ellipsoid hides: they turn the
+/// object a lot, or end beside the goal.
+TEST(Cheapen, RealPadsKnowCheaperPairs) {
+  const PlanOptions options;
+  int cheaper = 0;
+  for (std::uint64_t i = 0; i < 60; ++i) {
+    const FixtureRange range{.object = static_cast<FixtureObject>(i % 4)};
+    const Model model = prepare(random_fixture(range, 5, i)->scene);
+    const SearchModel search = prepare_search(model, Margin::none());
+    const FlatState start = flat_state(model.scene.start);
+    const GoalPlaces goals = goal_places(model, *model.scene.goal, start);
+    const GoalPlaces beside = tolerated_places(model, *model.scene.goal, start);
+    Work work{.budget = testing::kNoBudget};
+    const Limits limits(options, work);
+    BestMoves best(search);
+    const auto found = search_chains(search, start, goals, 0.0, limits, work);
+    if (!found) continue;
+    best.offer(moves_of(search, start, found->chain));
+    const double before = best.cost();
+    cheaper_with_real_pads(start, goals, beside, limits, work, best);
+    EXPECT_LE(best.cost(), before) << i;
+    cheaper += best.cost() < 0.9 * before;
+    const auto moves = best.take();
+    for (const Move& move : *moves) EXPECT_TRUE(move_passes(search, move, work)) << i;
+    const Grasp end = grasp_of(moves->back().to, model.scene.start.psi);
+    EXPECT_TRUE(reaches(*model.scene.goal, end)) << i;
+  }
+  std::printf("%d of 60 cheaper by a tenth and more\n", cheaper);
+  EXPECT_GT(cheaper, 3);
+}
+
+/// One contact does what two do for much more, with many turns.
+TEST(Cheapen, ImprovedPlansUseOneContactWhereItDoes) {
+  const FixtureRange range{.object = FixtureObject::kConvex};
+  const Model model = prepare(random_fixture(range, 1, 44)->scene);
+  PlanOptions options{.margin = Margin::none()};
+  const Plan first = plan_regrasp(model, options);
+  options.improve = true;
+  const Plan improved = plan_regrasp(model, options);
+  ASSERT_EQ(improved.status, PlanStatus::kReachedGoal);
+  EXPECT_GT(first.cost, 2.0);
+  EXPECT_LT(improved.cost, 1.5);
 }
 
 /// What is found between two states of a plan is no plan.

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/bounds.h"
+#include "planner/direct_push.h"
 #include "planner/exact_check.h"
 #include "planner/goal.h"
 #include "planner/limits.h"

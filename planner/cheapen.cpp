@@ -64,6 +64,7 @@ void cheaper_by_one_contact(const FlatState& start, const GoalPlaces& goals,
     WalkLattices lattices;
     within_budget(work, share, [&] {
       for (const GoalPlaces* places : {&goals, &beside}) {
+        if (places->count == 0) continue;
         const double worth = places == &goals ? 1.0 : kWorthTolerance;
         auto moves = search_walks(one, start, *places, worth * best.cost(), lattices,
                                   limits, work);

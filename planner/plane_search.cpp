@@ -122,7 +122,7 @@ std::optional<std::vector<Move>> search_plane(const SearchModel& search,
     best.offer({*direct});
     if (goes_straight(search, goals, *direct)) return best.take();
   }
-  const bool has_direct = best.any();
+  const bool is_direct = best.any();
   const double bound = guide_bound(*search.model, start, goal);
   if (work.meter) work.meter->bound(trivial_bound(*search.model, start, goal));
   const auto found = search_chains(search, from, goals, bound, limits, work);
@@ -142,7 +142,7 @@ std::optional<std::vector<Move>> search_plane(const SearchModel& search,
     cheaper_by_one_contact(from, goals, beside, limits, work, best);
   }
   const double enough = limits.improves() ? kGoodEnough * bound : kDearPair;
-  if (best.cost() <= enough || (has_direct && !limits.improves())) return best.take();
+  if (best.cost() <= enough || (is_direct && !limits.improves())) return best.take();
   auto longer = longer_moves(search, from, goals, &beside, found, lattices, limits, work);
   if (longer) best.offer(std::move(*longer));
   return best.take();

@@ -16,6 +16,12 @@ constexpr double kShareOfPairs = 0.6;
 constexpr double kShareOfWalk = 0.3;
 constexpr double kShareOfContacts = 0.5;
 
+/// With a margin, plans end at the goal if they can: an end at the border of the
+/// tolerances is one that little of the box reaches.
+bool is_worth_a_look(const SearchModel& search, const GoalPlaces& beside) {
+  return beside.count > 0 && search.margin.is_none();
+}
+
 void enter(const char* stage, double cost, Work& work) {
   if (!work.meter) return;
   work.meter->enter(stage);
@@ -43,6 +49,7 @@ void cheaper_with_real_pads(const FlatState& start, const GoalPlaces& goals,
   if (can_roll(search.model->scene.object)) return;
   const PadEnvelope pads(*search.model, search.margin);
   for (const GoalPlaces* places : {&goals, &beside}) {
+    if (places == &beside && !is_worth_a_look(search, beside)) continue;
     const auto found =
         search_chains_of_real_pads(search, start, *places, &pads, limits, work);
     if (!found) continue;
@@ -64,7 +71,7 @@ void cheaper_by_one_contact(const FlatState& start, const GoalPlaces& goals,
     WalkLattices lattices;
     within_budget(work, share, [&] {
       for (const GoalPlaces* places : {&goals, &beside}) {
-        if (places->count == 0) continue;
+        if (places == &beside && !is_worth_a_look(search, beside)) continue;
         const double worth = places == &goals ? 1.0 : kWorthTolerance;
         auto moves = search_walks(one, start, *places, worth * best.cost(), lattices,
                                   limits, work);

@@ -29,9 +29,10 @@ inline constexpr double kDearPair = 8.0;
 std::vector<Move> cheaper_by_pairs(const SearchModel& search, std::vector<Move> moves,
                                    const Limits& limits, Work& work);
 
-/// Two pushes with what the pads themselves allow at every angle, to the goals and, where
-/// that is worth it, beside them: over the ellipsoid some are hidden that are cheaper, as
-/// where gravity lets one contact carry the object aside while it turns.
+/// Two pushes with what the pads themselves allow at every angle, to the goals and,
+/// without a margin and where that is worth it, beside them: over the ellipsoid some are
+/// hidden that are cheaper, as where gravity lets one contact carry the object aside
+/// while it turns.
 void cheaper_with_real_pads(const FlatState& start, const GoalPlaces& goals,
                             const GoalPlaces& beside, const Limits& limits, Work& work,
                             BestMoves& best);

@@ -120,9 +120,12 @@ std::optional<std::vector<Move>> search_plane(const SearchModel& search,
   BestMoves best(search);
   if (const auto direct = direct_push(search, from, goals, work)) {
     best.offer({*direct});
-    if (goes_straight(search, goals, *direct)) return best.take();
+    if (!search.looks_for_cheaper || goes_straight(search, goals, *direct)) {
+      return best.take();
+    }
   }
   const bool is_direct = best.any();
+  double cost_of_first = best.cost();
   const double bound = guide_bound(*search.model, start, goal);
   if (work.meter) work.meter->bound(trivial_bound(*search.model, start, goal));
   const auto found = search_chains(search, from, goals, bound, limits, work);
@@ -135,12 +138,16 @@ std::optional<std::vector<Move>> search_plane(const SearchModel& search,
       return wound;
     }
   }
+  if (!is_direct) cost_of_first = best.cost();
   const GoalPlaces beside = tolerated_places(*search.model, goal, from);
-  const auto is_open = [&] { return best.any() && best.cost() > kGoodEnough * bound; };
+  const auto is_open = [&] {
+    return search.looks_for_cheaper && best.any() && best.cost() > kGoodEnough * bound;
+  };
   if (is_open()) cheaper_with_real_pads(from, goals, beside, limits, work, best);
   if (is_open() && limits.improves()) {
     cheaper_by_one_contact(from, goals, beside, limits, work, best);
   }
+  if (best.cost() < cost_of_first) ++work.found_cheaper;
   const double enough = limits.improves() ? kGoodEnough * bound : kDearPair;
   if (best.cost() <= enough || (is_direct && !limits.improves())) return best.take();
   auto longer = longer_moves(search, from, goals, &beside, found, lattices, limits, work);

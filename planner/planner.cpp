@@ -64,8 +64,9 @@ void set_undecided(Plan& plan, std::string message) {
 /// What one search keeps clear of, and what its plan must then survive.
 struct Clearance {
   Margin margin;
-  double extra_grasp = 0.0;     ///< [m] for what longer ways carry the finger axis off
-  double extra_friction = 0.0;  ///< share of the pusher's friction that is left unused
+  double extra_grasp = 0.0;        ///< [m] for what longer ways carry the finger axis off
+  double extra_friction = 0.0;     ///< share of the pusher's friction that is left unused
+  bool looks_for_cheaper = false;  ///< see SearchModel
 };
 
 /// By how much the ways of a plan carry the finger axis further off than the straight
@@ -95,7 +96,8 @@ Plan attempt(const Model& model, const PlanOptions& options, const Clearance& cl
   Margin kept = clearance.margin;
   kept.grasp += clearance.extra_grasp;
   kept.friction = std::min(1.0, kept.friction + clearance.extra_friction);
-  const SearchModel search = prepare_search(model, kept);
+  SearchModel search = prepare_search(model, kept);
+  search.looks_for_cheaper = clearance.looks_for_cheaper;
   if (work.meter) {
     work.meter->enter(kept.is_none() ? "search without margin" : "search");
     work.meter->forget_best();
@@ -153,14 +155,17 @@ constexpr std::array kUnusedFriction = {0.1, 0.25};
 /// A plan that is repaired and costs so much and more need not be the cheapest by far.
 constexpr double kDearRepair = 5.0;
 
-/// A plan that fails its exact check is searched again, first farther from slipping by
-/// what its detours carry the finger axis off, then with double the margin, then with
-/// less friction than there is. A dear one that passes once it is repaired is searched
+/// A plan that fails its exact check is searched again, first without the look for a
+/// cheaper one that is known to pass less often, then farther from slipping by what its
+/// detours carry the finger axis off, then with double the margin, then with less
+/// friction than there is. A dear one that passes once it is repaired is searched
 /// again once, and the cheaper is kept.
 Plan search_and_check(const Model& model, const PlanOptions& options,
                       const Margin& margin, Work& work, Found& found) {
   const auto begin = Clock::now();
-  Plan plan = attempt(model, options, {margin}, work, found);
+  work.found_cheaper = 0;
+  Plan plan =
+      attempt(model, options, {.margin = margin, .looks_for_cheaper = true}, work, found);
   const auto failed_check = [&] { return plan.instants > 0 && !plan.usable(); };
   const auto again = [&](const Clearance& clearance, const char* how) {
     const auto rest = with_time_left(options, begin);
@@ -182,6 +187,9 @@ Plan search_and_check(const Model& model, const PlanOptions& options,
       again({margin, std::max(1.5 * found.drift, kClearOfBorder)}, "");
     }
     return plan;
+  }
+  if (failed_check() && work.found_cheaper > 0) {
+    again({margin}, "; the first that is found: ");
   }
   if (failed_check() && found.drift > 0.0) {
     again({margin, 1.5 * found.drift}, "; with more room for drift: ");

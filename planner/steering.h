@@ -37,6 +37,7 @@ struct Work {
   std::int64_t propagations = 0;
   std::int64_t other = 0;  ///< of other kinds, in the time of a stick test
   std::int64_t budget = 0;
+  int found_cheaper = 0;           ///< plans that took the place of the first one found
   ConstraintCounts stopped_by;     ///< what stopped the pushes tried
   ProgressMeter* meter = nullptr;  ///< told how far the search is, if there is one
   const std::atomic<bool>* stop = nullptr;  ///< as in PlanOptions
@@ -64,6 +65,7 @@ struct SearchModel {
   Margin margin;
   std::vector<SearchContact> contacts;
   bool exact_everywhere = false;  ///< isotropic pad: no move needs the pad check
+  bool looks_for_cheaper = true;  ///< than the first plan, with what real pads allow
   Vec2 p_OF_start = Vec2::Zero();
   std::shared_ptr<const Confines> confines;  ///< null where the scene names none
   std::shared_ptr<const RingTable> rings;  ///< of round pads, for plans without a margin

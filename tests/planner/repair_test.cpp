@@ -35,7 +35,7 @@ TEST(Repair, MakesPushesStickThatSlipWithinTheMargin) {
 
 /// A plan of two pushes with a way-point that the first cannot push to.
 TEST(Repair, BringsAWayPointBack) {
-  RejectedPlan one(published_tee(20));
+  RejectedPlan one(published_tee(10));
   ASSERT_EQ(one.plan.pushes.size(), 2U);
   Stretch stretch;
   ASSERT_TRUE(read_stretch(one.search, one.plan.pushes, stretch));

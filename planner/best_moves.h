@@ -27,6 +27,7 @@ class BestMoves {
     moves_ = std::move(moves);
   }
 
+  /// None if nothing was offered; to be asked for last.
   std::optional<std::vector<Move>> take() { return std::move(moves_); }
 
  private:

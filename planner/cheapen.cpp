@@ -56,6 +56,7 @@ void cheaper_with_real_pads(const FlatState& start, const GoalPlaces& goals,
     best.offer(moves_of(search, start, found->chain),
                places == &goals ? 1.0 : kWorthTolerance);
   }
+  if (work.meter) work.meter->found(best.cost());
 }
 
 void cheaper_by_one_contact(const FlatState& start, const GoalPlaces& goals,

@@ -2,9 +2,10 @@
 ///
 /// The first plan that a long search meets may place the pusher hundreds of times where
 /// five times would do, or wind the hand up and back. What these functions are given they
-/// leave as it is unless it is dear; their answers have the same start, end in one of the
-/// goals, and cost no more. Every push sticks with the real pad over the margin box. Each
-/// takes at most a part of what is left of the work budget.
+/// leave as it is unless they find something cheaper, which some look for only if it is
+/// dear; their answers have the same start, end in one of the goals, and cost no more.
+/// Every push sticks with the real pad over the margin box. Each takes at most a part of
+/// what is left of the work budget.
 #pragma once
 
 #include <vector>

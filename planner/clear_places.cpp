@@ -13,6 +13,7 @@ namespace {
 constexpr double kSpacing = 1e-3;      // [m] of places that are looked at
 constexpr double kMostPlaces = 600.0;  // of one contact
 constexpr int kMostStretches = 3;      // of clear ones, of one contact
+constexpr std::size_t kMostGoals = 8;  // the nearest, of a goal that leaves some free
 
 /// Whether the hand is clear at a state while the contact touches, and may come and go.
 bool is_clear(const SearchModel& search, std::size_t contact, const FlatState& at) {
@@ -68,7 +69,7 @@ void add_places(const SearchModel& along, const std::vector<FlatState>& states,
 
 std::vector<FlatState> states_of(const GoalPlaces& goals) {
   std::vector<FlatState> states;
-  for (int i = 0; i < goals.count; ++i) {
+  for (int i = 0; i < goals.count && states.size() < kMostGoals; ++i) {
     const GoalPlace& place = goals.places[static_cast<std::size_t>(i)];
     if (place.count > 0) states.push_back({place.p_OF, place.theta[0]});
   }
@@ -78,7 +79,7 @@ std::vector<FlatState> states_of(const GoalPlaces& goals) {
 }  // namespace
 
 void add_clear_places(const Model& model, SearchModel& search) {
-  if (!model.scene.obstacles || !model.scene.goal || !search.confines) return;
+  if (!model.scene.obstacles || !model.scene.goal || !collisions_are_built()) return;
   const FlatState start = flat_state(model.scene.start);
   const std::vector<SearchContact> contacts = search.contacts;
   for (const auto& states :

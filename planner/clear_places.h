@@ -6,9 +6,11 @@
 
 namespace prehensile {
 
-/// Where no contact of a search among obstacles is clear with the hand at the start, or
-/// at any place of the goal: adds the places of its line pushers, looked at every
-/// millimetre, at which it is, the middle of each stretch of them. A few at most.
+/// Among obstacles, for the start, and then for the goal (its nearest places where it
+/// leaves some free): if with no contact of the search the hand is clear there, adds the
+/// places of its line pushers at which it is, looked at every millimetre along the face:
+/// the middles of up to three stretches of each. Nothing where the scene names no
+/// obstacles.
 void add_clear_places(const Model& model, SearchModel& search);
 
 }  // namespace prehensile

@@ -1,5 +1,6 @@
 #include "planner/plane_search.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "planner/fan_search.h"
 #include "planner/loop_search.h"
 #include "planner/roll_step.h"
+#include "planner/shorten.h"
 #include "planner/walk_search.h"
 #include "planner/wound_search.h"
 
@@ -101,11 +103,15 @@ std::optional<std::vector<Move>> search_within_tolerance(const SearchModel& sear
   return moves_of(search, from, found->chain);
 }
 
-/// Whether no push to a goal is much shorter than this one.
+/// Whether no goal is much nearer than the one that a push leads to.
 bool goes_straight(const SearchModel& search, const GoalPlaces& goals, const Move& move) {
-  const GoalPlace& nearest = goals.places[0];
-  const double least =
-      flat_distance(*search.model, move.from, {nearest.p_OF, nearest.theta[0]});
+  double least = kInfinity;
+  for (int i = 0; i < goals.count; ++i) {
+    const GoalPlace& place = goals.places[static_cast<std::size_t>(i)];
+    if (place.count == 0) continue;
+    const FlatState nearest{place.p_OF, place.theta[0]};
+    least = std::min(least, flat_distance(*search.model, move.from, nearest));
+  }
   return flat_distance(*search.model, move.from, move.to) <= kGoodEnough * least;
 }
 
@@ -117,15 +123,12 @@ std::optional<std::vector<Move>> search_plane(const SearchModel& search,
                                               const Limits& limits, Work& work) {
   const FlatState from = flat_state(start);
   const GoalPlaces goals = goal_places(*search.model, goal, from);
-  BestMoves best(search);
-  if (const auto direct = direct_push(search, from, goals, work)) {
-    best.offer({*direct});
-    if (!search.looks_for_cheaper || goes_straight(search, goals, *direct)) {
-      return best.take();
-    }
+  const auto direct = direct_push(search, from, goals, work);
+  if (direct && (!search.looks_for_cheaper || goes_straight(search, goals, *direct))) {
+    return std::vector{*direct};
   }
-  const bool is_direct = best.any();
-  double cost_of_first = best.cost();
+  BestMoves best(search);
+  if (direct) best.offer({*direct});
   const double bound = guide_bound(*search.model, start, goal);
   if (work.meter) work.meter->bound(trivial_bound(*search.model, start, goal));
   const auto found = search_chains(search, from, goals, bound, limits, work);
@@ -138,7 +141,7 @@ std::optional<std::vector<Move>> search_plane(const SearchModel& search,
       return wound;
     }
   }
-  if (!is_direct) cost_of_first = best.cost();
+  const double cost_of_first = direct ? cost_of(search, {*direct}) : best.cost();
   const GoalPlaces beside = tolerated_places(*search.model, goal, from);
   const auto is_open = [&] {
     return search.looks_for_cheaper && best.any() && best.cost() > kGoodEnough * bound;
@@ -149,7 +152,7 @@ std::optional<std::vector<Move>> search_plane(const SearchModel& search,
   }
   if (best.cost() < cost_of_first) ++work.found_cheaper;
   const double enough = limits.improves() ? kGoodEnough * bound : kDearPair;
-  if (best.cost() <= enough || (is_direct && !limits.improves())) return best.take();
+  if (best.cost() <= enough || (direct && !limits.improves())) return best.take();
   auto longer = longer_moves(search, from, goals, &beside, found, lattices, limits, work);
   if (longer) best.offer(std::move(*longer));
   return best.take();

@@ -14,8 +14,11 @@ class WalkLattices;
 /// Pushes from the start to the goal in the pad plane: a single one; two, by way-points
 /// from closed forms or of a lattice, over the ellipsoid and with what the pads
 /// themselves allow; more, many short ones, loops and walks. Each sticks with the real
-/// pads over the margin box. None where every stage ends without, or a limit is reached.
-/// `lattices`: kept for other searches of the same question.
+/// pads over the margin box. Unless SearchModel::looks_for_cheaper is false, a first plan
+/// that is far from its guide bound is compared with others (cheapen.h), and one that
+/// takes its place is counted in Work::found_cheaper. None where every stage ends
+/// without, or a limit is reached. `lattices`: kept for other searches of the same
+/// question.
 std::optional<std::vector<Move>> search_plane(const SearchModel& search,
                                               const Grasp& start, const Goal& goal,
                                               WalkLattices& lattices,

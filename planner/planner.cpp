@@ -155,10 +155,10 @@ constexpr std::array kUnusedFriction = {0.1, 0.25};
 /// A plan that is repaired and costs so much and more need not be the cheapest by far.
 constexpr double kDearRepair = 5.0;
 
-/// A plan that fails its exact check is searched again, first without the look for a
-/// cheaper one that is known to pass less often, then farther from slipping by what its
-/// detours carry the finger axis off, then with double the margin, then with less
-/// friction than there is. A dear one that passes once it is repaired is searched
+/// A plan that fails its exact check is searched again, first without a look for what is
+/// cheaper than the first plan found, if it took its place, then farther from slipping by
+/// what its detours carry the finger axis off, then with double the margin, then with
+/// less friction than there is. A dear one that passes once it is repaired is searched
 /// again once, and the cheaper is kept.
 Plan search_and_check(const Model& model, const PlanOptions& options,
                       const Margin& margin, Work& work, Found& found) {

@@ -65,7 +65,7 @@ struct SearchModel {
   Margin margin;
   std::vector<SearchContact> contacts;
   bool exact_everywhere = false;  ///< isotropic pad: no move needs the pad check
-  bool looks_for_cheaper = true;  ///< than the first plan, with what real pads allow
+  bool looks_for_cheaper = true;  ///< than the first plan found; see plane_search.h
   Vec2 p_OF_start = Vec2::Zero();
   std::shared_ptr<const Confines> confines;  ///< null where the scene names none
   std::shared_ptr<const RingTable> rings;  ///< of round pads, for plans without a margin

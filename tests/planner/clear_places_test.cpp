@@ -52,6 +52,7 @@ SearchModel everywhere_along(const SearchModel& search, int contact) {
 /// Where the hand is clear at the start along two millimetres of any face, the search has
 /// a contact there.
 TEST(ClearPlaces, AreFoundWhereThereAreAny) {
+  if (!collisions_are_built()) GTEST_SKIP() << "built without FCL";
   int added = 0;
   for (std::uint64_t i = 0; i < 40; ++i) {
     const Model model = prepare(among_posts(i));
@@ -75,8 +76,9 @@ TEST(ClearPlaces, AreFoundWhereThereAreAny) {
 
 /// None where those that are there do.
 TEST(ClearPlaces, AreNotAddedWithoutNeed) {
+  if (!collisions_are_built()) GTEST_SKIP() << "built without FCL";
   const Model model = prepare(among_posts(0));
-  SearchModel search = prepare_search(model, Margin::none());
+  const SearchModel search = prepare_search(model, Margin::none());
   ASSERT_GE(clear_contact(search, 21, flat_state(model.scene.start)), 0);
   EXPECT_EQ(search.contacts.size(), 21u);
   Scene free = model.scene;
@@ -87,6 +89,7 @@ TEST(ClearPlaces, AreNotAddedWithoutNeed) {
 
 /// The hand is clear at the start along 4 mm of one of three walls.
 TEST(ClearPlaces, LeadToAPlan) {
+  if (!collisions_are_built()) GTEST_SKIP() << "built without FCL";
   const Model model = prepare(among_posts(20));
   const SearchModel search = prepare_search(model, usual_margin(model));
   const FlatState start = flat_state(model.scene.start);
@@ -95,6 +98,23 @@ TEST(ClearPlaces, LeadToAPlan) {
   const Plan plan = plan_regrasp(model, {});
   ASSERT_EQ(plan.status, PlanStatus::kReachedGoal);
   EXPECT_EQ(plan.promise, Promise::kMargin);
+}
+
+/// The same place as the goal.
+TEST(ClearPlaces, AreFoundForGoals) {
+  if (!collisions_are_built()) GTEST_SKIP() << "built without FCL";
+  Scene scene = among_posts(20);
+  const PlanarPose blocked = scene.start.X_HO;
+  scene.start.X_HO = {*scene.goal->x, *scene.goal->y, *scene.goal->theta};
+  scene.goal->x = blocked.x;
+  scene.goal->y = blocked.y;
+  scene.goal->theta = blocked.theta;
+  const Model model = prepare(scene);
+  const SearchModel search = prepare_search(model, Margin::none());
+  const FlatState goal = flat_state({blocked, 0.0});
+  EXPECT_GE(clear_contact(search, 21, flat_state(scene.start)), 0);
+  EXPECT_EQ(clear_contact(search, 21, goal), -1);
+  EXPECT_GE(clear_contact(search, search.contacts.size(), goal), 21);
 }
 
 }  // namespace

@@ -202,8 +202,9 @@ TEST(Transit, ArmsKeepClearOfThePosts) {
     GTEST_SKIP() << "built without FCL or OMPL";
   }
   int transits = 0, straight = 0;
-  for (std::uint64_t i = 0; i < 25; ++i) {
-    const Model model = prepare(with_obstacles(published_tee(2 * i), 10, 7, i));
+  for (int i = 0; i < 25; ++i) {
+    const auto index = static_cast<std::uint64_t>(i);
+    const Model model = prepare(with_obstacles(published_tee(2 * i), 10, 7, index));
     const Plan plan = plan_regrasp(model);
     if (!plan.usable() || plan.pushes.size() < 2) continue;
     const ArmMotion motion = arm_motion(model, plan);

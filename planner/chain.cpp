@@ -28,25 +28,23 @@ double common_kappa(const Chain& chain, const Intervals& intervals, double wante
     return sum;
   };
   std::array<double, 2 * Chain::kMaxLegs> ends;
+  double least = 0.0;
+  double greatest = 0.0;
   for (int k = 0; k < chain.count; ++k) {
     ends[2 * k] = intervals[k].lo;
     ends[2 * k + 1] = intervals[k].hi;
+    least += chain.legs[k].length * intervals[k].lo;
+    greatest += chain.legs[k].length * intervals[k].hi;
   }
+  if (!(wanted >= least && wanted <= greatest)) return kNan;
   const auto last = ends.begin() + 2 * chain.count;
   std::sort(ends.begin(), last);
-  double low = ends[0];
-  double sum_low = sum_at(low);
-  if (wanted < sum_low) return kNan;
-  for (auto end = ends.begin() + 1; end != last; ++end) {
-    const double sum = sum_at(*end);
-    if (wanted <= sum) {
-      return sum > sum_low ? low + (*end - low) * (wanted - sum_low) / (sum - sum_low)
-                           : low;
-    }
-    low = *end;
-    sum_low = sum;
-  }
-  return kNan;
+  const auto end = std::partition_point(ends.begin() + 1, last - 1,
+                                        [&](double x) { return sum_at(x) < wanted; });
+  const double low = *(end - 1);
+  const double sum_low = sum_at(low);
+  const double sum = sum_at(*end);
+  return sum > sum_low ? low + (*end - low) * (wanted - sum_low) / (sum - sum_low) : low;
 }
 
 /// The interval of the set that contains a value chosen from it.

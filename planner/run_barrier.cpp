@@ -10,6 +10,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kViolation = 1e3;  // cost of what is violated, per m
 constexpr int kMostSteps = 30;      // of Newton's method, for one weight
+constexpr double kSmallProduct = 1e-100;
 
 }  // namespace
 
@@ -60,25 +61,35 @@ double RunBarrier::objective() const {
   return sum;
 }
 
-/// One constraint g >= 0: its share of the barrier; false where it is violated.
-bool RunBarrier::take(double g, const Gradient& slope, double* multiplier) {
+/// One constraint g >= 0: its share of the barrier; false where it is violated. `slope`
+/// gives its Gradient, where that is needed.
+template <typename Slope>
+bool RunBarrier::take(double g, const Slope& slope, double* multiplier) {
   if (only_least_) {
     least_ = std::min(least_, g);
     return true;
   }
   if (!(g > 0.0)) return false;
-  value_ -= weight_ * std::log(g);
+  product_ *= g;
+  if (!(product_ > kSmallProduct && product_ < 1.0 / kSmallProduct)) count_logarithms();
   if (!derivatives_) return true;
   const double y = weight_ / g;
   if (multiplier) *multiplier = y;
-  for (int i = 0; i < slope.count; ++i) {
-    gradient_[slope.index[i]] -= y * slope.value[i];
-    const double scaled = y / g * slope.value[i];
-    for (int j = 0; j < slope.count; ++j) {
-      hessian_.add(slope.index[i], slope.index[j], scaled * slope.value[j]);
+  const Gradient by = slope();
+  for (int i = 0; i < by.count; ++i) {
+    gradient_[by.index[i]] -= y * by.value[i];
+    const double scaled = y / g * by.value[i];
+    for (int j = 0; j <= i; ++j) {
+      hessian_.add(by.index[i], by.index[j], scaled * by.value[j]);
     }
   }
   return true;
+}
+
+/// A logarithm takes longer than all the rest of a constraint: one for many.
+void RunBarrier::count_logarithms() {
+  value_ -= weight_ * std::log(product_);
+  product_ = 1.0;
 }
 
 /// Adds y times the second derivative of sqrt(sum of squares of three differences);
@@ -117,26 +128,27 @@ bool RunBarrier::take_piece(int k) {
   const auto slope_of = [&](double by_du, double by_dz, double by_mean, double by_tau,
                             double by_v) {
     Gradient slope;
-    slope.add(u, by_du + 0.5 * by_mean);
-    slope.add(z, by_dz);
     if (k > 0) {
       slope.add(u_0, -by_du + 0.5 * by_mean);
       slope.add(z_0, -by_dz);
     }
+    slope.add(u, by_du + 0.5 * by_mean);
+    slope.add(z, by_dz);
     slope.add(tau, by_tau);
     slope.add(kV, by_v);
     return slope;
   };
   double y_length = 0.0;
-  if (!take(x_[tau] - length, slope_of(-du / length, -dz / length, 0.0, 1.0, 0.0),
-            &y_length)) {
-    return false;
-  }
+  const auto by_length = [&] {
+    return slope_of(-du / length, -dz / length, 0.0, 1.0, 0.0);
+  };
+  if (!take(x_[tau] - length, by_length, &y_length)) return false;
   add_curvature_of_length(y_length, {D, du, dz}, {-1, u, z}, {-1, u_0, z_0}, length);
   for (int e = 0; e < 2; ++e) {
     const double sign = e == 0 ? -1.0 : 1.0;
     const double edge = p_.mu * D + sign * du + p_.back[e] * x_[tau] + x_[kV];
-    if (!take(edge, slope_of(sign, 0.0, 0.0, p_.back[e], 1.0), &y.edge[e])) return false;
+    const auto by_edge = [&] { return slope_of(sign, 0.0, 0.0, p_.back[e], 1.0); };
+    if (!take(edge, by_edge, &y.edge[e])) return false;
     const double side = -sign;  // of the ends
     for (int set = 0; set < RunLaw::kSets; ++set) {
       const double ratio = p_.ratio[set];
@@ -145,12 +157,11 @@ bool RunBarrier::take_piece(int k) {
       const double end =
           side * (ratio * dz - p_.h[k] * du - D * (mean_u - p_.end[set][e])) + area +
           p_.slack_of(set, e, k) * x_[tau] + per_path * path + ratio * x_[kV];
-      if (!take(end,
-                slope_of(-side * p_.h[k] - p_.area * du / p_.mu + per_path * du / path,
-                         side * ratio, -side * D, p_.slack_of(set, e, k), ratio),
-                &y.end[set][e])) {
-        return false;
-      }
+      const auto by_end = [&] {
+        return slope_of(-side * p_.h[k] - p_.area * du / p_.mu + per_path * du / path,
+                        side * ratio, -side * D, p_.slack_of(set, e, k), ratio);
+      };
+      if (!take(end, by_end, &y.end[set][e])) return false;
       if (!derivatives_) continue;
       const double second =
           y.end[set][e] * (p_.area / p_.mu - per_path * D * D / (path * path * path));
@@ -161,16 +172,19 @@ bool RunBarrier::take_piece(int k) {
     }
     if (p_.beside[k][e] > 0.0) {
       const double turn = p_.beside[k][e] * side;
-      if (!take(D + p_.retreat * x_[tau] - turn * dz + x_[kV],
-                slope_of(0.0, -turn, 0.0, p_.retreat, 1.0), &y.turn[e])) {
+      const auto by_turn = [&] { return slope_of(0.0, -turn, 0.0, p_.retreat, 1.0); };
+      if (!take(D + p_.retreat * x_[tau] - turn * dz + x_[kV], by_turn, &y.turn[e])) {
         return false;
       }
     }
-    Gradient border;
-    border.add(u, side);
-    border.add(kV, 1.0);
     const double at = e == 0 ? x_[u] - p_.border_low[k] : p_.border_high[k] - x_[u];
-    if (!take(at + x_[kV], border, &y.border[e])) return false;
+    const auto by_border = [&] {
+      Gradient slope;
+      slope.add(u, side);
+      slope.add(kV, 1.0);
+      return slope;
+    };
+    if (!take(at + x_[kV], by_border, &y.border[e])) return false;
   }
   return true;
 }
@@ -180,31 +194,40 @@ bool RunBarrier::take_rest() {
   const int depth = kRest, u = kRestU, z = kRestZ, tau = kRestTau;
   const std::array<double, 3> d{x_[depth], x_[u], x_[z]};
   const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-  Gradient slope;
-  slope.add(tau, 1.0);
-  slope.add(depth, -d[0] / length);
-  slope.add(u, -d[1] / length);
-  slope.add(z, -d[2] / length);
+  const auto by_length = [&] {
+    Gradient slope;
+    slope.add(depth, -d[0] / length);
+    slope.add(u, -d[1] / length);
+    slope.add(z, -d[2] / length);
+    slope.add(tau, 1.0);
+    return slope;
+  };
   double y_length = 0.0;
-  if (!take(x_[tau] - length, slope, &y_length)) return false;
+  if (!take(x_[tau] - length, by_length, &y_length)) return false;
   add_curvature_of_length(y_length, d, {depth, u, z}, {-1, -1, -1}, length);
-  Gradient positive, limited;
-  positive.add(depth, 1.0);
-  limited.add(depth, -1.0);
-  if (!take(d[0], positive, nullptr) || !take(p_.rest - d[0], limited, nullptr)) {
+  const auto by_depth = [&](double sign) {
+    Gradient slope;
+    slope.add(depth, sign);
+    return slope;
+  };
+  if (!take(
+          d[0], [&] { return by_depth(1.0); }, nullptr) ||
+      !take(
+          p_.rest - d[0], [&] { return by_depth(-1.0); }, nullptr)) {
     return false;
   }
   for (int e = 0; e < 2; ++e) {
     const double sign = e == 0 ? -1.0 : 1.0;
-    Gradient edge;
-    edge.add(depth, p_.mu);
-    edge.add(u, sign);
-    edge.add(tau, p_.back[e]);
-    edge.add(kV, 1.0);
-    if (!take(p_.mu * d[0] + sign * d[1] + p_.back[e] * x_[tau] + x_[kV], edge,
-              &y.edge[e])) {
-      return false;
-    }
+    const double edge = p_.mu * d[0] + sign * d[1] + p_.back[e] * x_[tau] + x_[kV];
+    const auto by_edge = [&] {
+      Gradient slope;
+      slope.add(depth, p_.mu);
+      slope.add(u, sign);
+      slope.add(tau, p_.back[e]);
+      slope.add(kV, 1.0);
+      return slope;
+    };
+    if (!take(edge, by_edge, &y.edge[e])) return false;
     for (int set = 0; set < RunLaw::kSets; ++set) {
       if (!take_rest_end(set, e, d, y.end[set][e])) return false;
     }
@@ -218,16 +241,19 @@ bool RunBarrier::take_rest_end(int set, int e, const std::array<double, 3>& d,
   const double ratio = p_.ratio[set];
   const double per_path = p_.per_path[set][e];
   const double path = std::hypot(d[0], d[1]);
-  Gradient end;
-  end.add(kRest, p_.rest_lever(set, e) + per_path * d[0] / path);
-  end.add(kRestU, -side * p_.h[kRunPieces] + per_path * d[1] / path);
-  end.add(kRestZ, side * ratio);
-  end.add(kRestTau, p_.slack_of(set, e, kRunPieces));
-  end.add(kV, ratio);
+  const auto by_end = [&] {
+    Gradient slope;
+    slope.add(kRest, p_.rest_lever(set, e) + per_path * d[0] / path);
+    slope.add(kRestU, -side * p_.h[kRunPieces] + per_path * d[1] / path);
+    slope.add(kRestZ, side * ratio);
+    slope.add(kRestTau, p_.slack_of(set, e, kRunPieces));
+    slope.add(kV, ratio);
+    return slope;
+  };
   const double slack = side * (ratio * d[2] - p_.h[kRunPieces] * d[1]) +
                        p_.rest_lever(set, e) * d[0] + per_path * path +
                        p_.slack_of(set, e, kRunPieces) * x_[kRestTau] + ratio * x_[kV];
-  if (!take(slack, end, &y)) return false;
+  if (!take(slack, by_end, &y)) return false;
   add_curvature_of_length(-per_path * y, {d[0], d[1], 0.0}, {kRest, kRestU, -1},
                           {-1, -1, -1}, path);
   return true;
@@ -243,23 +269,33 @@ bool RunBarrier::take_goal() {
     const double room = p_.goal.slack[i] + p_.goal.slope[i] * share + x_[kV];
     for (int k = 0; k < kGoalDirections; ++k) {
       const Vec2 w = goal_direction(k);
-      Gradient slope;
-      slope.add(u, -w.x());
-      slope.add(kRestU, -w.x());
-      slope.add(kRest, -w.y());
-      slope.add(kShare, p_.goal.slope[i] + w.dot(arc));
-      slope.add(kV, 1.0);
-      if (!take(room - w.dot(off), slope, &y_.goal[i][k])) return false;
+      const auto by_direction = [&] {
+        Gradient slope;
+        slope.add(u, -w.x());
+        slope.add(kRest, -w.y());
+        slope.add(kRestU, -w.x());
+        slope.add(kShare, p_.goal.slope[i] + w.dot(arc));
+        slope.add(kV, 1.0);
+        return slope;
+      };
+      if (!take(room - w.dot(off), by_direction, &y_.goal[i][k])) return false;
     }
   }
   const double end_z = x_[z] + x_[kRestZ];
   for (int e = 0; e < 2; ++e) {
     const double side = e == 0 ? -1.0 : 1.0;
-    Gradient by_z, by_share;
-    by_z.add(z, -side);
-    by_z.add(kRestZ, -side);
-    by_z.add(kV, 1.0);
-    by_share.add(kShare, -side);
+    const auto by_z = [&] {
+      Gradient slope;
+      slope.add(z, -side);
+      slope.add(kRestZ, -side);
+      slope.add(kV, 1.0);
+      return slope;
+    };
+    const auto by_share = [&] {
+      Gradient slope;
+      slope.add(kShare, -side);
+      return slope;
+    };
     if (!take(side * (p_.goal_z[e] - end_z) + x_[kV], by_z, &y_.goal_z[e]) ||
         !take(1.0 - side * share, by_share, nullptr)) {
       return false;
@@ -272,9 +308,12 @@ bool RunBarrier::take_all() {
   for (int k = 0; k < kRunPieces; ++k) {
     if (!take_piece(k)) return false;
   }
-  Gradient violation;
-  violation.add(kV, 1.0);
-  return take_rest() && take_goal() && take(x_[kV], violation, nullptr);
+  const auto by_violation = [&] {
+    Gradient slope;
+    slope.add(kV, 1.0);
+    return slope;
+  };
+  return take_rest() && take_goal() && take(x_[kV], by_violation, nullptr);
 }
 
 /// Least of all constraints, by which v has to be raised at the start.
@@ -299,7 +338,9 @@ bool RunBarrier::assemble(double weight, double& value, bool derivatives) {
     gradient_[kRestTau] = 1.0;
     gradient_[kV] = kViolation;
   }
+  product_ = 1.0;
   const bool inside = take_all();
+  count_logarithms();
   value = value_;
   return inside;
 }

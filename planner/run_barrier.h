@@ -44,18 +44,21 @@ class RunBarrier {
   using Band = BorderedBand<kVariables, 5>;
   using Vector = Band::Vector;
 
-  /// The variables that a constraint depends on, with its slopes.
+  /// The variables that a constraint depends on, in their order, with its slopes.
   struct Gradient {
     std::array<int, 7> index;
     std::array<double, 7> value;
     int count = 0;
     void add(int i, double v) {
+      if (v == 0.0) return;
       index[count] = i;
       value[count++] = v;
     }
   };
 
-  bool take(double g, const Gradient& slope, double* multiplier);
+  template <typename Slope>
+  bool take(double g, const Slope& slope, double* multiplier);
+  void count_logarithms();
   void add_curvature_of_length(double y, const std::array<double, 3>& d,
                                const std::array<int, 3>& to,
                                const std::array<int, 3>& from, double length);
@@ -73,6 +76,7 @@ class RunBarrier {
   Band hessian_;
   RunMultipliers y_;
   double weight_ = 0.0, value_ = 0.0, least_ = 0.0;
+  double product_ = 1.0;  // of constraints whose logarithms are not in value_ yet
   bool derivatives_ = false, only_least_ = false;
 };
 

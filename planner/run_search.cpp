@@ -20,14 +20,12 @@ constexpr std::array<int, 7> kStrides = {12, 8, 6, 4, 3, 2, 1};  // of the way-p
 struct Inwards {
   double ends = 0.0, cone = 0.0;
 };
-constexpr std::array<Inwards, 4> kInwards = {
-    {{0.7, 0.0}, {0.35, 0.05}, {1.5, 0.0}, {0.7, 0.12}}};
+constexpr std::array<Inwards, 2> kInwards = {{{0.7, 0.0}, {1.5, 0.0}}};
 /// The same where the points themselves say how legs may turn.
-constexpr std::array<Inwards, 4> kInwardsOfPoints = {
-    {{0.0, 0.0}, {0.35, 0.05}, {0.7, 0.0}, {0.7, 0.12}}};
+constexpr std::array<Inwards, 2> kInwardsOfPoints = {{{0.0, 0.0}, {0.7, 0.12}}};
 /// Paths are near the borders of the laws first, and farther from them where that helps
 /// no more: weights of the program's barrier over L. Of lines: points are aimed anew.
-constexpr std::array kLastWeights = {0.0, 2e-3, 1e-2};
+constexpr std::array kLastWeights = {0.0, 2e-3};
 constexpr double kPerPush = 2e-3;  // of J, that one push less is worth
 constexpr double kLongest = 4.0;   // travel over L of plans looked for
 constexpr double kUsedTolerance = 0.9;

@@ -4,20 +4,49 @@ set(costly_when_sanitized
   Advice.IsTheSameEveryTime
   Advice.NamesOnlyChangesThatWork
   Advice.SaysWhatANominalPlanLacks
+  Barrier.FeasibleProblemsHaveNone
+  Barrier.FeasibleProblemsOfPointsHaveNone
+  Barrier.NothingCrossesIt
   Barrier.NothingCrossesItWhereTheFaceClips
+  Barrier.NothingCrossesThatOfPadsOfOtherShapes
+  BlockedHand.IsAProof
   BlockedHand.NothingBeginsOrEndsThere
+  Cheapen.DearMovesCostAFewPushes
+  Cheapen.ImprovedPlansUseOneContactWhereItDoes
+  ClearPlaces.AreFoundWhereThereAreAny
+  ClearPlaces.LeadToAPlan
   ClippedLaw.WhatItDeniesNoInstantDoes
+  ConfinesCheck.NoPlanCollides
+  Costs.GripsAreTheCheapestThatPass
+  ExactCheck.ADiscHasToStickToAPointAsWell
+  ExactCheck.SlackOfAPointTellsWhetherItSlips
+  Fallback.GoesOnWhereTheExactStagesAreCutShort
+  GripRange.EvidenceAtBothEnds
+  LoopSearch.FindsWhatTurnsLittleAtATime
+  LoopSearch.KeepsToLimitsOfTheAngle
+  LoopSearch.ReachesTheGoalByPushesThatStick
+  LoopSearch.TacksThroughNarrowWays
+  LoopSearch.TurnsAsOftenAsANumberAsks
   MeetEnd.DividesWhatOnePushDoesNotFollow
+  MeetEnd.ErrorsDoNotAddUp
+  MeetEnd.PlansByPointsAreReplayed
   OmplDeterminism.SameSeedSamePlanInFreshProcesses
+  OmplDeterminism.SameSeedSamePlanInOneProcess
   OmplDeterminism.SeedsMatterToRandomPlannersOnly
+  OmplFrame.BudgetIsKeptToThePropagation
   OmplStockPlanners.BlindControlsNeedMoreWorkThanSteering
   Planner.PlansOfManyTurnsReplay
+  Planner.PolishNeverLengthens
+  Planner.SolvesConstructedBoxes
+  Planner.SolvesConstructedCans
   Planner.SolvesConstructedTees
   PointMargin.PlansWithAMarginSurviveTheBox
   ProblemList.ProblemsAreSoundAndTheSameEachTime
   Proofs.GoalBesideTheMiddleLineOfACan
+  PushCalibration.MirroredPushesGiveMirroredRegistration
   PushCalibration.RecoversWhatMadeThePushes
   PushEstimate.IsHonestOverPads
+  Reference.ConvergesToTheExactSolverWithGenerators
   Repair.MakesPushesStickThatSlipWithinTheMargin
   RobustPlan.ANominalPlanNeedNotWaitForTheWholeBudget
   RobustPlan.SaysSoWhereOnlyANominalPlanExists
@@ -26,7 +55,10 @@ set(costly_when_sanitized
   RunSuite.ShardsMakeTheWhole
   SpaceCone.EdgesAreWhereInstantsChange
   SpaceCone.HasWhatADenseScanFinds
+  SpaceCone.RobustEdgesAreWhereAMemberSlips
+  SpaceCone.RobustIsThatOfThePadPlaneWhereTheSceneIsSymmetric
   SpaceCone.WithoutMembersRobustIsNominal
+  SpaceGrip.IsThatOfThePadPlaneWhereTheSceneIsSymmetric
   SpaceGrip.PushesInSpaceStickWithinTheForcesAndNotBeyond
   SpaceGrip.TheRangeOfAWholePushIsThatOfItsProfile
   SpacePlace.LeastForceLoosensTheGrip
@@ -45,5 +77,9 @@ set(costly_when_sanitized
   Steering.MovesOfOtherPadsSurviveADenseCheck
   Transit.ArmsKeepClearOfThePosts
   Transit.FindsNoTurnThatTheGraspDoesNotHold
+  Turn.FeasibleProblemsHaveNone
+  Turn.NoInstantBreaksIt
   WalkSearch.FindsLoopsWhereThePadsAreClipped
+  WalkSearch.KeepsToLimitsOfTheAngle
+  WalkSearch.MeetsANumberAtItself
   WalkSearch.ReachesTheGoalByPushesThatStick)

@@ -23,9 +23,10 @@ struct Inwards {
 constexpr std::array<Inwards, 2> kInwards = {{{0.7, 0.0}, {1.5, 0.0}}};
 /// The same where the points themselves say how legs may turn.
 constexpr std::array<Inwards, 2> kInwardsOfPoints = {{{0.0, 0.0}, {0.7, 0.12}}};
-/// Paths are near the borders of the laws first, and farther from them where that helps
-/// no more: weights of the program's barrier over L. Of lines: points are aimed anew.
-constexpr std::array kLastWeights = {0.0, 2e-3};
+/// Paths are near the borders of the laws first, and where that does not help farther
+/// from them: the weight of the program's barrier over L. Of lines: points are aimed
+/// anew.
+constexpr double kFartherIn = 2e-3;
 constexpr double kPerPush = 2e-3;  // of J, that one push less is worth
 constexpr double kLongest = 4.0;   // travel over L of plans looked for
 constexpr double kUsedTolerance = 0.9;
@@ -117,7 +118,7 @@ class RunSearch {
     if (!near || law.mu <= 0.0 || is_behind(0) || is_behind(1)) return;
     const double before = to_beat_;
     const auto follow_all = [&](const Steering& steering, const Inwards& inwards,
-                                double last_weight = kLastWeights.front()) {
+                                double last_weight = 0.0) {
       RunLaws laws;
       laws.C = laws_.C;
       laws.reach = laws_.reach;
@@ -153,10 +154,8 @@ class RunSearch {
       if (to_beat_ < before) return;
       follow_all({search_}, inwards);
     }
-    if (!search_.contacts[contact].stick.is_point) {
-      for (std::size_t i = 1; i < kLastWeights.size() && to_beat_ >= before; ++i) {
-        follow_all({search_}, {}, kLastWeights[i]);
-      }
+    if (!search_.contacts[contact].stick.is_point && to_beat_ >= before) {
+      follow_all({search_}, {}, kFartherIn);
     }
     if (can_roll(search_.model->scene.object)) return;
     if (!envelope_) envelope_.emplace(*search_.model, search_.margin);

@@ -35,11 +35,13 @@ set(costly_when_sanitized
   OmplDeterminism.SeedsMatterToRandomPlannersOnly
   OmplFrame.BudgetIsKeptToThePropagation
   OmplStockPlanners.BlindControlsNeedMoreWorkThanSteering
+  Planner.EndsBesideGoalsThatNoWayLeadsTo
   Planner.PlansOfManyTurnsReplay
   Planner.PolishNeverLengthens
   Planner.SolvesConstructedBoxes
   Planner.SolvesConstructedCans
   Planner.SolvesConstructedTees
+  Planner.WithoutTheHelpOfGravityPushesStickWithoutGravity
   PointMargin.PlansWithAMarginSurviveTheBox
   ProblemList.ProblemsAreSoundAndTheSameEachTime
   Proofs.GoalBesideTheMiddleLineOfACan
@@ -53,6 +55,7 @@ set(costly_when_sanitized
   RunSuite.JobsDoNotChangeResults
   RunSuite.OneRunAgainIsTheSameRow
   RunSuite.ShardsMakeTheWhole
+  Shorten.ManyPushesBecomeFew
   SpaceCone.EdgesAreWhereInstantsChange
   SpaceCone.HasWhatADenseScanFinds
   SpaceCone.RobustEdgesAreWhereAMemberSlips

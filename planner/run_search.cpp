@@ -22,7 +22,8 @@ struct Inwards {
 };
 constexpr std::array<Inwards, 2> kInwards = {{{0.7, 0.0}, {1.5, 0.0}}};
 /// The same where the points themselves say how legs may turn.
-constexpr std::array<Inwards, 2> kInwardsOfPoints = {{{0.0, 0.0}, {0.7, 0.12}}};
+constexpr std::array<Inwards, 3> kInwardsOfPoints = {
+    {{0.0, 0.0}, {0.7, 0.0}, {0.7, 0.12}}};
 /// Paths are near the borders of the laws first, and where that does not help farther
 /// from them: the weight of the program's barrier over L. Of lines: points are aimed
 /// anew.

@@ -11,6 +11,7 @@ set(costly_when_sanitized
   Barrier.NothingCrossesThatOfPadsOfOtherShapes
   BlockedHand.IsAProof
   BlockedHand.NothingBeginsOrEndsThere
+  Bounder.SurestIsAboveWhatWasSeen
   Cheapen.DearMovesCostAFewPushes
   Cheapen.ImprovedPlansUseOneContactWhereItDoes
   ClearPlaces.AreFoundWhereThereAreAny
@@ -22,6 +23,8 @@ set(costly_when_sanitized
   ExactCheck.SlackOfAPointTellsWhetherItSlips
   Fallback.GoesOnWhereTheExactStagesAreCutShort
   GripRange.EvidenceAtBothEnds
+  Improve.IsNeverWorse
+  LocalLaw.OfAnyShapeDeniesNoInstantThatSticks
   LoopSearch.FindsWhatTurnsLittleAtATime
   LoopSearch.KeepsToLimitsOfTheAngle
   LoopSearch.ReachesTheGoalByPushesThatStick
@@ -35,8 +38,11 @@ set(costly_when_sanitized
   OmplDeterminism.SeedsMatterToRandomPlannersOnly
   OmplFrame.BudgetIsKeptToThePropagation
   OmplStockPlanners.BlindControlsNeedMoreWorkThanSteering
+  OmplStockPlanners.EveryPushIsDoneInItsDirection
+  PlanarInstant.AgreesWithTheEnumerationOfAllModes
   Planner.EndsBesideGoalsThatNoWayLeadsTo
   Planner.PlansOfManyTurnsReplay
+  Planner.PlansSurviveTheirMarginBox
   Planner.PolishNeverLengthens
   Planner.SolvesConstructedBoxes
   Planner.SolvesConstructedCans
@@ -55,6 +61,7 @@ set(costly_when_sanitized
   RunSuite.JobsDoNotChangeResults
   RunSuite.OneRunAgainIsTheSameRow
   RunSuite.ShardsMakeTheWhole
+  Shorten.EndsWithItsBudget
   Shorten.ManyPushesBecomeFew
   SpaceCone.EdgesAreWhereInstantsChange
   SpaceCone.HasWhatADenseScanFinds
@@ -78,11 +85,15 @@ set(costly_when_sanitized
   SpatialPushLaw.UpsideDownMovesAlike
   SpatialSensitivity.HoldsOnOneSideAtAChangeOfMode
   Steering.MovesOfOtherPadsSurviveADenseCheck
+  Trajectory.MakesPushesStickThatSlipWithinTheMargin
   Transit.ArmsKeepClearOfThePosts
   Transit.FindsNoTurnThatTheGraspDoesNotHold
   Turn.FeasibleProblemsHaveNone
   Turn.NoInstantBreaksIt
+  Turn.RefusesACornerThatTurnsOtherwise
+  Turn.RefusesAnAngleThatNoWayMakes
   WalkSearch.FindsLoopsWhereThePadsAreClipped
+  WalkSearch.FindsNarrowWays
   WalkSearch.KeepsToLimitsOfTheAngle
   WalkSearch.MeetsANumberAtItself
   WalkSearch.ReachesTheGoalByPushesThatStick)

@@ -60,12 +60,12 @@ class ChainSearch {
     return found_;
   }
 
-  std::optional<FoundChain> run_real_pads(const PadEnvelope* envelope) {
+  std::optional<FoundChain> run_real_pads(const PadEnvelope* envelope, double to_beat) {
     if (limits_.reached()) return found_;
     const Steering steering{search_, true, envelope};
-    try_nodes(steering, kSparse);
+    try_nodes(steering, kSparse, to_beat);
     if (!envelope && !found_ && !limits_.reached()) {
-      try_labels(steering, kSparse, kNoPlan);
+      try_labels(steering, kSparse, to_beat);
     }
     return found_;
   }
@@ -146,8 +146,9 @@ class ChainSearch {
     keep_first_that_sticks(steering, points);
   }
 
-  void try_nodes(const Steering& steering, const Fineness& fineness) {
-    BestWayPoints points;
+  void try_nodes(const Steering& steering, const Fineness& fineness,
+                 double to_beat = kNoPlan) {
+    BestWayPoints points(to_beat);
     add_nodes(steering, nodes(fineness), start_, goals_, work_, points);
     keep_first_that_sticks(steering, points);
   }
@@ -196,13 +197,12 @@ std::optional<FoundChain> search_long_chains(const SearchModel& search,
       .run_labels(envelope, to_beat);
 }
 
-std::optional<FoundChain> search_chains_of_real_pads(const SearchModel& search,
-                                                     const FlatState& start,
-                                                     const GoalPlaces& goals,
-                                                     const PadEnvelope* envelope,
-                                                     const Limits& limits, Work& work) {
+std::optional<FoundChain> search_chains_of_real_pads(
+    const SearchModel& search, const FlatState& start, const GoalPlaces& goals,
+    const PadEnvelope* envelope, double to_beat, const Limits& limits, Work& work) {
   if (goals.count == 0) return std::nullopt;
-  return ChainSearch(search, start, goals, 0.0, limits, work).run_real_pads(envelope);
+  return ChainSearch(search, start, goals, 0.0, limits, work)
+      .run_real_pads(envelope, to_beat);
 }
 
 std::optional<FoundChain> search_chains(const SearchModel& search, const FlatState& start,

@@ -31,13 +31,11 @@ std::optional<FoundChain> search_exact_chains(const SearchModel& search,
                                               const GoalPlaces& goals,
                                               const Limits& limits, Work& work);
 
-/// Two pushes through a lattice node with rotations that the real pads allow; without an
-/// envelope (cans) also three and more.
-std::optional<FoundChain> search_chains_of_real_pads(const SearchModel& search,
-                                                     const FlatState& start,
-                                                     const GoalPlaces& goals,
-                                                     const PadEnvelope* envelope,
-                                                     const Limits& limits, Work& work);
+/// Two pushes through a lattice node with rotations that the real pads allow, cheaper
+/// than `to_beat` (infinity: any); without an envelope (cans) also three and more.
+std::optional<FoundChain> search_chains_of_real_pads(
+    const SearchModel& search, const FlatState& start, const GoalPlaces& goals,
+    const PadEnvelope* envelope, double to_beat, const Limits& limits, Work& work);
 
 /// Three and more pushes over a lattice, cheaper than `to_beat` (infinity: any).
 std::optional<FoundChain> search_long_chains(const SearchModel& search,

@@ -55,15 +55,14 @@ void cheaper_with_real_pads(const FlatState& start, const GoalPlaces& goals,
                             const GoalPlaces& beside, const Limits& limits, Work& work,
                             BestMoves& best) {
   const SearchModel& search = best.search();
-  if (can_roll(search.model->scene.object)) return;
+  if (can_roll(search.model->scene.object) || search.model->has_soft_points()) return;
   const PadEnvelope pads(*search.model, search.margin);
   for (const GoalPlaces* places : {&goals, &beside}) {
     if (places == &beside && !is_worth_a_look(search, beside)) continue;
-    const auto found =
-        search_chains_of_real_pads(search, start, *places, &pads, limits, work);
-    if (!found) continue;
-    best.offer(moves_of(search, start, found->chain),
-               places == &goals ? 1.0 : kWorthTolerance);
+    const double worth = places == &goals ? 1.0 : kWorthTolerance;
+    const auto found = search_chains_of_real_pads(search, start, *places, &pads,
+                                                  worth * best.cost(), limits, work);
+    if (found) best.offer(moves_of(search, start, found->chain), worth);
   }
   if (work.meter) work.meter->found(best.cost());
 }

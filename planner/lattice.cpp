@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "planner/costs.h"
 
 namespace prehensile {
 namespace {
@@ -15,17 +18,20 @@ bool held_by_some(const SearchModel& search, const Vec2& p_OF) {
       });
 }
 
-/// Legs between one fixed place and every node, by contact: empty kappas where none.
+/// Legs between one fixed place and nodes, by contact.
 class LegTable {
  public:
-  /// `place`: start or goal; `outward`: from the place to the nodes.
+  /// `place`: start or goal; `outward`: from the place to the nodes. `is_asked(node,
+  /// contact)`: of which legs.
+  template <typename IsAsked>
   LegTable(const Steering& steering, const std::vector<Vec2>& nodes, const Vec2& place,
-           bool outward, Work& work)
+           bool outward, const IsAsked& is_asked, Work& work)
       : contacts_(steering.search.contacts.size()), legs_(contacts_ * nodes.size()) {
     for (std::size_t node = 0; node < nodes.size(); ++node) {
       for (std::size_t contact = 0; contact < contacts_; ++contact) {
         Leg& leg = legs_[node * contacts_ + contact];
         const int index = static_cast<int>(contact);
+        if (!is_asked(node, contact)) continue;
         if (is_blocked(steering.search, index, nodes[node], work)) continue;
         const Stop end{place, true};
         const Stop way_point{nodes[node]};
@@ -42,10 +48,33 @@ class LegTable {
     return legs_[node * contacts_ + contact];
   }
 
+  bool has(std::size_t node, std::size_t contact) const {
+    return at(node, contact).contact >= 0;
+  }
+
+  bool has_any(std::size_t node) const {
+    for (std::size_t i = 0; i < contacts_; ++i) {
+      if (has(node, i)) return true;
+    }
+    return false;
+  }
+
  private:
   std::size_t contacts_;
   std::vector<Leg> legs_;
 };
+
+/// Least J of plans by one placement that go by way of `node`; infinity where the goal
+/// place has no angles.
+double least_cost_by(const Model& model, const FlatState& start, const Vec2& node,
+                     const GoalPlace& goal) {
+  const double way = (node - start.p_OF).norm() + (goal.p_OF - node).norm();
+  double travel = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < goal.count; ++i) {
+    travel = std::min(travel, std::hypot(way, model.c * (goal.theta[i] - start.theta)));
+  }
+  return 1.0 + travel / placement_length(model);
+}
 
 bool is_node(const SearchModel& search, const Vec2& p_OF, double depth) {
   return depth_inside(search.model->pad_face, p_OF) >= depth &&
@@ -92,17 +121,30 @@ void add_local_nodes(const SearchModel& search, const Vec2& a, const Vec2& b,
 void add_nodes(const Steering& steering, const std::vector<Vec2>& nodes,
                const FlatState& start, const GoalPlaces& goals, Work& work,
                BestWayPoints& best) {
-  const LegTable out(steering, nodes, start.p_OF, true, work);
   const std::size_t contacts = steering.search.contacts.size();
+  const auto least_cost = [&](std::size_t node, int place) {
+    return least_cost_by(*steering.search.model, start, nodes[node], goals.places[place]);
+  };
+  const auto is_near = [&](std::size_t node, std::size_t) {
+    for (int place = 0; place < goals.count; ++place) {
+      if (least_cost(node, place) < best.worst_cost()) return true;
+    }
+    return false;
+  };
+  const LegTable out(steering, nodes, start.p_OF, true, is_near, work);
   Chain chain;
   for (int place = 0; place < goals.count && !work.spent(); ++place) {
-    const LegTable in(steering, nodes, goals.places[place].p_OF, false, work);
+    const auto leads_on = [&](std::size_t node, std::size_t contact) {
+      const double placements_more = out.has(node, contact) ? 0.0 : 1.0;
+      return out.has_any(node) &&
+             least_cost(node, place) + placements_more < best.worst_cost();
+    };
+    const LegTable in(steering, nodes, goals.places[place].p_OF, false, leads_on, work);
     for (std::size_t node = 0; node < nodes.size(); ++node) {
       for (std::size_t i = 0; i < contacts * contacts; ++i) {
-        const Leg& first = out.at(node, i / contacts);
-        const Leg& second = in.at(node, i % contacts);
-        if (first.contact < 0 || second.contact < 0) continue;
-        add_way_point(steering, start.theta, goals, place, first, second, chain, best);
+        if (!out.has(node, i / contacts) || !in.has(node, i % contacts)) continue;
+        add_way_point(steering, start.theta, goals, place, out.at(node, i / contacts),
+                      in.at(node, i % contacts), chain, best);
       }
     }
   }

@@ -16,7 +16,8 @@ std::vector<Vec2> lattice_nodes(const SearchModel& search, int wanted);
 void add_local_nodes(const SearchModel& search, const Vec2& a, const Vec2& b,
                      int per_side, std::vector<Vec2>& nodes);
 
-/// Adds every node as single way-point for every pair of contacts and every goal place.
+/// Adds every node as single way-point for every pair of contacts and every goal place,
+/// but for those too far off for a plan that `best` would keep.
 void add_nodes(const Steering& steering, const std::vector<Vec2>& nodes,
                const FlatState& start, const GoalPlaces& goals, Work& work,
                BestWayPoints& best);

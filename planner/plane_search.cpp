@@ -33,7 +33,9 @@ std::optional<std::vector<Move>> search_with_real_pads(const SearchModel& search
   if (flat) envelope.emplace(*search.model, search.margin);
   const PadEnvelope* pads = envelope ? &*envelope : nullptr;
   if (!best) best = search_exact_chains(search, from, goals, limits, work);
-  if (!best) best = search_chains_of_real_pads(search, from, goals, pads, limits, work);
+  if (!best) {
+    best = search_chains_of_real_pads(search, from, goals, pads, kInfinity, limits, work);
+  }
   std::optional<std::vector<Move>> moves;
   if (!best && pads) moves = search_fan(search, *pads, from, goals, limits, work);
   const double to_beat = best    ? best->chain.cost

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "planner/costs.h"
 
@@ -57,8 +56,7 @@ bool crossing(const Vec2& start, const Vec2& e_1, const Vec2& goal, const Vec2& 
 }  // namespace
 
 double BestWayPoints::worst_cost() const {
-  return count_ < kCapacity ? std::numeric_limits<double>::infinity()
-                            : points_[count_ - 1].cost;
+  return count_ < kCapacity ? to_beat_ : points_[count_ - 1].cost;
 }
 
 void BestWayPoints::add(const WayPoint& point) noexcept {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "planner/chain.h"
 #include "planner/goal.h"
@@ -23,6 +24,11 @@ struct WayPoint {
 class BestWayPoints {
  public:
   static constexpr int kCapacity = 48;
+
+  /// Of those cheaper than `to_beat`.
+  explicit BestWayPoints(double to_beat = std::numeric_limits<double>::infinity())
+      : to_beat_(to_beat) {}
+
   int count() const { return count_; }
   const WayPoint& operator[](int i) const { return points_[i]; }
 
@@ -31,6 +37,7 @@ class BestWayPoints {
   void add(const WayPoint& point) noexcept;
 
  private:
+  double to_beat_;
   int count_ = 0;
   std::array<WayPoint, kCapacity> points_;
 };

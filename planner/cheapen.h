@@ -33,7 +33,7 @@ std::vector<Move> cheaper_by_pairs(const SearchModel& search, std::vector<Move> 
 /// Two pushes with what the pads themselves allow at every angle, to the goals and,
 /// without a margin and where that is worth it, beside them: over the ellipsoid some are
 /// hidden that are cheaper, as where gravity lets one contact carry the object aside
-/// while it turns.
+/// while it turns. Not over soft points, whose friction the ellipsoid is.
 void cheaper_with_real_pads(const FlatState& start, const GoalPlaces& goals,
                             const GoalPlaces& beside, const Limits& limits, Work& work,
                             BestMoves& best);

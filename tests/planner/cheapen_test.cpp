@@ -8,6 +8,7 @@
 #include "planner/chain_search.h"
 #include "planner/shorten.h"
 #include "planner/walk_lattice.h"
+#include "problems/published_regrasps.h"
 #include "problems/random_fixtures.h"
 #include "problems/random_regrasps.h"
 #include "tests/planner/planner_cases.h"
@@ -118,6 +119,25 @@ TEST(Cheapen, RealPadsKnowCheaperPairs) {
   }
   std::printf("%d of 60 cheaper by a tenth and more\n", cheaper);
   EXPECT_GT(cheaper, 3);
+}
+
+/// The first stages know all about them.
+TEST(Cheapen, SoftPointsHideNothing) {
+  const PlanOptions options;
+  const Model model = prepare(with_soft_points(published_tee(11)));
+  const SearchModel search = prepare_search(model, Margin::none());
+  const FlatState start = flat_state(model.scene.start);
+  const GoalPlaces goals = goal_places(model, *model.scene.goal, start);
+  const GoalPlaces beside = tolerated_places(model, *model.scene.goal, start);
+  Work work{.budget = testing::kNoBudget};
+  const Limits limits(options, work);
+  const auto found = search_chains(search, start, goals, 0.0, limits, work);
+  ASSERT_TRUE(found);
+  BestMoves best(search);
+  best.offer(moves_of(search, start, found->chain));
+  const std::int64_t before = work.done();
+  cheaper_with_real_pads(start, goals, beside, limits, work, best);
+  EXPECT_EQ(work.done(), before);
 }
 
 /// One contact does what two do for much more, with many turns.

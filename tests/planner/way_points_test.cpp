@@ -1,5 +1,7 @@
 #include "planner/way_points.h"
 
+#include <cstdio>
+
 #include <gtest/gtest.h>
 
 #include "planner/lattice.h"
@@ -92,6 +94,39 @@ TEST(WayPoints, CrossingsAreNearlyAsGoodAsALattice) {
   }
   EXPECT_GT(solved, 30);
   EXPECT_GT(as_good, solved / 2);
+}
+
+/// What could not be kept anyway gets no legs, and what is kept is the same.
+TEST(WayPoints, NodesTooFarOffCostNothing) {
+  Random random(4);
+  int compared = 0;
+  double saved = 0.0;
+  for (int i = 0; i < 60; ++i) {
+    const Regrasp regrasp(random, i % 2 == 0);
+    const std::vector<Vec2> lattice = lattice_nodes(regrasp.search, 300);
+    Work of_all{.budget = kNoBudget}, of_cheap{.budget = kNoBudget};
+    BestWayPoints all;
+    add_nodes({regrasp.search}, lattice, regrasp.start, regrasp.places, of_all, all);
+    if (all.count() < 3) continue;
+    ++compared;
+    const double to_beat = all[all.count() / 2].cost;
+    BestWayPoints cheap(to_beat);
+    add_nodes({regrasp.search}, lattice, regrasp.start, regrasp.places, of_cheap, cheap);
+    int expected = 0;
+    while (all[expected].cost < to_beat) ++expected;
+    ASSERT_EQ(cheap.count(), expected) << i;
+    for (int k = 0; k < expected; ++k) {
+      EXPECT_EQ(cheap[k].cost, all[k].cost) << i;
+      EXPECT_EQ(cheap[k].p_OF, all[k].p_OF) << i;
+    }
+    EXPECT_LE(of_cheap.stick_tests, of_all.stick_tests) << i;
+    saved += 1.0 - static_cast<double>(of_cheap.stick_tests) /
+                       static_cast<double>(of_all.stick_tests);
+  }
+  std::printf("%.0f %% of the tests saved in %d cases\n", 100.0 * saved / compared,
+              compared);
+  EXPECT_GT(compared, 30);
+  EXPECT_GT(saved, 0.25 * compared);
 }
 
 TEST(Lattice, NodesLieOnTheObject) {

@@ -39,7 +39,6 @@ set(costly_when_sanitized
   OmplFrame.BudgetIsKeptToThePropagation
   OmplStockPlanners.BlindControlsNeedMoreWorkThanSteering
   OmplStockPlanners.EveryPushIsDoneInItsDirection
-  PlanarInstant.AgreesWithTheEnumerationOfAllModes
   Planner.EndsBesideGoalsThatNoWayLeadsTo
   Planner.PlansOfManyTurnsReplay
   Planner.PlansSurviveTheirMarginBox

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "planner/chain_search.h"
-#include "planner/confines.h"
 #include "planner/roll_step.h"
 #include "planner/shorten.h"
 #include "planner/walk_search.h"
@@ -27,14 +26,6 @@ void enter(const char* stage, double cost, Work& work) {
   if (!work.meter) return;
   work.meter->enter(stage);
   work.meter->found(cost);
-}
-
-/// What confines it counts contacts, too.
-SearchModel with_one_contact(const SearchModel& search, int contact) {
-  SearchModel one = search;
-  one.contacts = {search.contacts[static_cast<std::size_t>(contact)]};
-  one.confines = Confines::of(one);
-  return one;
 }
 
 }  // namespace
@@ -75,7 +66,8 @@ void cheaper_by_one_contact(const FlatState& start, const GoalPlaces& goals,
   const std::int64_t share =
       share_of_left(work, kShareOfContacts / static_cast<double>(search.contacts.size()));
   for (int i = 0; i < static_cast<int>(search.contacts.size()); ++i) {
-    const SearchModel one = with_one_contact(search, i);
+    SearchModel one = search;  // there are no walks among obstacles, which know contacts
+    one.contacts = {search.contacts[i]};
     WalkLattices lattices;
     within_budget(work, share, [&] {
       for (const GoalPlaces* places : {&goals, &beside}) {

@@ -10,6 +10,7 @@
 /// T / (one length) covers it, and what other pads add to F T is counted afterwards.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "planner/plan.h"
@@ -24,6 +25,13 @@ inline double placement_length(const Model& model) noexcept {
   if (!model.scene.cost) return model.L;
   const CostWeights& price = *model.scene.cost;
   return model.L / (price.travel + price.work * model.F * model.L);
+}
+
+/// J of so many placements and one straight way in (p_OF, c theta), of which `length` [m]
+/// is in the pad plane and `turn` [rad]: no pushes that go and turn as far cost less.
+inline double straight_cost(const Model& model, int placements, double length,
+                            double turn) noexcept {
+  return placements + std::hypot(length, model.c * turn) / placement_length(model);
 }
 
 /// At least as long as the travel of any plan that costs one placement [m]: for bounds.

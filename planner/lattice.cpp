@@ -64,16 +64,20 @@ class LegTable {
   std::vector<Leg> legs_;
 };
 
-/// Least J of plans by one placement that go by way of `node`; infinity where the goal
-/// place has no angles.
-double least_cost_by(const Model& model, const FlatState& start, const Vec2& node,
-                     const GoalPlace& goal) {
-  const double way = (node - start.p_OF).norm() + (goal.p_OF - node).norm();
-  double travel = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < goal.count; ++i) {
-    travel = std::min(travel, std::hypot(way, model.c * (goal.theta[i] - start.theta)));
+/// Least J of plans by one placement that go to a goal place by way of each node;
+/// infinity where the place has no angles.
+std::vector<double> least_costs(const Model& model, const std::vector<Vec2>& nodes,
+                                const FlatState& start, const GoalPlace& goal) {
+  std::vector<double> least(nodes.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t node = 0; node < nodes.size(); ++node) {
+    const double way =
+        (nodes[node] - start.p_OF).norm() + (goal.p_OF - nodes[node]).norm();
+    for (int i = 0; i < goal.count; ++i) {
+      const double turn = goal.theta[i] - start.theta;
+      least[node] = std::min(least[node], straight_cost(model, 1, way, turn));
+    }
   }
-  return 1.0 + travel / placement_length(model);
+  return least;
 }
 
 bool is_node(const SearchModel& search, const Vec2& p_OF, double depth) {
@@ -122,22 +126,24 @@ void add_nodes(const Steering& steering, const std::vector<Vec2>& nodes,
                const FlatState& start, const GoalPlaces& goals, Work& work,
                BestWayPoints& best) {
   const std::size_t contacts = steering.search.contacts.size();
-  const auto least_cost = [&](std::size_t node, int place) {
-    return least_cost_by(*steering.search.model, start, nodes[node], goals.places[place]);
-  };
+  std::vector<std::vector<double>> least;  // by goal place and node
+  for (int place = 0; place < goals.count; ++place) {
+    least.push_back(least_costs(*steering.search.model, nodes, start,
+                                goals.places[static_cast<std::size_t>(place)]));
+  }
   const auto is_near = [&](std::size_t node, std::size_t) {
-    for (int place = 0; place < goals.count; ++place) {
-      if (least_cost(node, place) < best.worst_cost()) return true;
-    }
-    return false;
+    return std::any_of(least.begin(), least.end(), [&](const auto& of_place) {
+      return of_place[node] < best.worst_cost();
+    });
   };
   const LegTable out(steering, nodes, start.p_OF, true, is_near, work);
   Chain chain;
   for (int place = 0; place < goals.count && !work.spent(); ++place) {
     const auto leads_on = [&](std::size_t node, std::size_t contact) {
       const double placements_more = out.has(node, contact) ? 0.0 : 1.0;
-      return out.has_any(node) &&
-             least_cost(node, place) + placements_more < best.worst_cost();
+      return least[static_cast<std::size_t>(place)][node] + placements_more <
+                 best.worst_cost() &&
+             out.has_any(node);
     };
     const LegTable in(steering, nodes, goals.places[place].p_OF, false, leads_on, work);
     for (std::size_t node = 0; node < nodes.size(); ++node) {

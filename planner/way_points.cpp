@@ -71,20 +71,17 @@ void add_way_point(const Steering& steering, double theta_start, const GoalPlace
                    int place, const Leg& first, const Leg& second, Chain& chain,
                    BestWayPoints& best) noexcept {
   const SearchModel& search = steering.search;
-  const double placed = first.contact != second.contact ? 2.0 : 1.0;
+  const int placed = first.contact != second.contact ? 2 : 1;
   const double length = first.length + second.length;
   const TurnWindow window = turns_from(search, theta_start);
   const GoalPlace& goal = goals.places[place];
-  chain.count = 0;
   for (int angle = 0; angle < goal.count; ++angle) {
     const double dtheta = goal.theta[angle] - theta_start;
-    const double least = std::hypot(length, search.model->c * dtheta);
-    if (placed + least / placement_length(*search.model) >= best.worst_cost()) continue;
-    if (chain.count == 0) {
-      chain.count = 2;
-      chain.legs[0] = first;
-      chain.legs[1] = second;
-    }
+    const double least = straight_cost(*search.model, placed, length, dtheta);
+    if (least >= best.worst_cost()) continue;
+    chain.count = 2;
+    chain.legs[0] = first;
+    chain.legs[1] = second;
     if (!solve_chain(search, dtheta, chain, window)) continue;
     best.add({chain.cost, first.contact, second.contact, first.to, place, angle});
   }

@@ -127,6 +127,7 @@ void add_nodes(const Steering& steering, const std::vector<Vec2>& nodes,
                BestWayPoints& best) {
   const std::size_t contacts = steering.search.contacts.size();
   std::vector<std::vector<double>> least;  // by goal place and node
+  least.reserve(static_cast<std::size_t>(goals.count));
   for (int place = 0; place < goals.count; ++place) {
     least.push_back(least_costs(*steering.search.model, nodes, start,
                                 goals.places[static_cast<std::size_t>(place)]));

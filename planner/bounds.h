@@ -28,8 +28,9 @@ double guide_bound(const Model& model, const Grasp& start, const Goal& goal);
 inline constexpr double kGapAsked = 1.0999;
 
 /// Work of the bounds below: boxes of switch points looked at, about a microsecond each.
-/// What slabs cost (slab_travel.h) is not in it: 1 to 20 ms for a scene and a goal, where
-/// it comes to plans of three placements.
+/// What slabs cost (slab_travel.h, run_slabs.h) is not in it: 1 to 20 ms for a scene and
+/// a goal, where it comes to plans of three placements, and some milliseconds for each
+/// contact of which the program alone does not prove enough.
 inline constexpr std::int64_t kBoundNodes = 6000;
 
 struct BoundOptions {

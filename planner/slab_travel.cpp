@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "planner/segment.h"
+#include "planner/slab_cost.h"
 
 namespace prehensile {
 namespace {
@@ -20,26 +21,17 @@ constexpr int kFineSlabs = 100, kFineSteps = 1500;
 
 constexpr std::array<double, 5> kShareOfTurn = {0.0, 0.5, -0.5, 0.9, -0.9};
 
-constexpr int kFirstSectors = 4;             // of half a turn about u
-constexpr double kNarrowest = kPi / 1440.0;  // [rad] half of a sector that is not divided
-
 constexpr double kRounding = 1e-7;  // [m] of the way between two places
-
-/// Motions by one contact in a sector of directions, at places across a slab.
-struct Branch {
-  double cost = 0.0;  // least of them, from below
-  int contact = 0;
-  double off = 0.0, half = 0.0;  // [rad] middle of the sector from u, and half of it
-  double low = 0.0, high = 0.0;  // [m] of perp(u).p
-  bool operator<(const Branch& other) const {  // heaps keep the greatest in front
-    return cost > other.cost;
-  }
-};
 
 }  // namespace
 
+const LocalLaw& SlabTravel::law() {
+  if (!law_) law_.emplace(model_, weightless_);
+  return *law_;
+}
+
 void SlabTravel::prepare_slabs() {
-  law_.emplace(model_, weightless_);
+  has_slabs_ = true;
   for (int i = 0; i < kWays; ++i) {
     const Vec2 u = rotated(2.0 * kPi * i / kWays, Vec2(1.0, 0.0));
     coarse_[i] = slabs_across(u, kCoarseSlabs, kCoarseSteps);
@@ -60,65 +52,17 @@ SlabTravel::Slabs SlabTravel::slabs_across(const Vec2& u, int count, int steps) 
   return slabs;
 }
 
-/// Best first, until what is best is narrow or the steps are done.
-double SlabTravel::least_cost(const Slabs& slabs, double slab_low, double share) const {
-  const Vec2& u = slabs.u;
-  const Vec2 v = perp(u);
-  const auto bound = [&](Branch& branch) {
-    const double advance = std::cos(std::max(0.0, std::abs(branch.off) - branch.half));
-    const std::array<Vec2, 4> corners = {
-        slab_low * u + branch.low * v, (slab_low + slabs.width) * u + branch.low * v,
-        (slab_low + slabs.width) * u + branch.high * v, slab_low * u + branch.high * v};
-    const double travel = law_->least_travel(
-        branch.contact, corners, {rotated(branch.off, u), branch.half}, share);
-    branch.cost = std::max(branch.cost, travel / advance);
-  };
-  std::vector<Branch> open;
-  const auto add = [&](Branch branch) {
-    bound(branch);
-    if (branch.cost == kInfinity) return;
-    open.push_back(branch);
-    std::push_heap(open.begin(), open.end());
-  };
-  Branch first;
-  const Extent extent = extent_across(model_.pad_face, u, v, slab_low - kRounding,
-                                      slab_low + slabs.width + kRounding);
-  if (!(extent.low <= extent.high)) return kInfinity;
-  first.low = extent.low;
-  first.high = extent.high;
-  first.half = 0.5 * kPi / kFirstSectors;
-  for (int contact = 0; contact < static_cast<int>(model_.contacts.size()); ++contact) {
-    first.contact = contact;
-    for (int i = 0; i < kFirstSectors; ++i) {
-      first.off = (2 * i + 1 - kFirstSectors) * first.half;
-      add(first);
-    }
-  }
-  for (int step = 0; step < slabs.steps && !open.empty(); ++step) {
-    const Branch worst = open.front();
-    const double width = worst.high - worst.low;
-    const bool is_wide = width > slabs.width;
-    if (!is_wide && worst.half <= kNarrowest) break;
-    std::pop_heap(open.begin(), open.end());
-    open.pop_back();
-    Branch one = worst, other = worst;
-    if (is_wide && width > 8.0 * model_.L * worst.half / kPi) {
-      one.high = other.low = 0.5 * (worst.low + worst.high);
-    } else {
-      one.half = other.half = 0.5 * worst.half;
-      one.off -= one.half;
-      other.off += other.half;
-    }
-    add(one);
-    add(other);
-  }
-  return open.empty() ? kInfinity : open.front().cost;
-}
-
 double SlabTravel::cost_of(Slabs& slabs, int index, int share) const {
   double& cost = slabs.costs[index][share];
   if (std::isnan(cost)) {
-    cost = least_cost(slabs, slabs.low + index * slabs.width, kShareOfTurn[share]);
+    const double low = slabs.low + index * slabs.width;
+    const Extent across = extent_across(model_.pad_face, slabs.u, perp(slabs.u),
+                                        low - kRounding, low + slabs.width + kRounding);
+    cost = least_cost(*law_, {slabs.u, low, slabs.width, across},
+                      {.end_contact = static_cast<int>(model_.contacts.size()),
+                       .share = kShareOfTurn[share],
+                       .steps = slabs.steps,
+                       .as_half_turn = 8.0 * model_.L});
   }
   return cost;
 }
@@ -141,8 +85,8 @@ double SlabTravel::least_along(Slabs& slabs, int share, const Vec2& from,
 
 double SlabTravel::least(const Vec2& from, const GoalArc& to, double turn_low,
                          double turn_high) {
-  if (!law_) prepare_slabs();
-  if (!law_->is_known()) return 0.0;
+  if (!law().is_known()) return 0.0;
+  if (!has_slabs_) prepare_slabs();
   double most = 0.0;
   int best_way = 0, best_share = 0;
   for (int way = 0; way < kWays; ++way) {

@@ -25,6 +25,9 @@ class SlabTravel {
   SlabTravel(const Model& model, bool weightless)
       : model_(model), weightless_(weightless) {}
 
+  /// The law of single instants.
+  const LocalLaw& law();
+
   /// Least travel [m] of plans that carry the finger axis from one place to one of others
   /// while the object turns by between two angles [rad]; 0 where the local law is not
   /// known. Remembers what it found out about slabs, up to a tenth of a millisecond each.
@@ -44,7 +47,6 @@ class SlabTravel {
 
   Slabs slabs_across(const Vec2& u, int count, int steps) const;
   double cost_of(Slabs& slabs, int index, int share) const;
-  double least_cost(const Slabs& slabs, double low, double share) const;
   double least_along(Slabs& slabs, int share, const Vec2& from, const GoalArc& to,
                      double turn_low, double turn_high) const;
 
@@ -53,6 +55,7 @@ class SlabTravel {
   const Model& model_;
   bool weightless_;
   std::optional<LocalLaw> law_;  // from the first question on
+  bool has_slabs_ = false;
   std::array<Slabs, kWays> coarse_, fine_;
 };
 

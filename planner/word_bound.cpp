@@ -6,6 +6,7 @@
 
 #include "planner/costs.h"
 #include "planner/portals.h"
+#include "planner/run_slabs.h"
 #include "planner/slab_travel.h"
 #include "scene/outline.h"
 
@@ -161,12 +162,17 @@ class SingleRuns {
         question_(question),
         target_(target),
         nodes_(nodes),
+        asks_slabs_(question.slabs && !visit),
         others_(scene, target, nodes, visit) {}
 
-  /// `least`: a bound that is known.
-  void add(int contact, double low, double high, double least) {
+  /// `least`: a bound that is known, of slabs, too, if they were `crossed`.
+  void add(int contact, double low, double high, double least = 1.0,
+           bool crossed_slabs = false) {
     --nodes_;
-    Run run{.contact = contact, .turn_low = low, .turn_high = high};
+    Run run{.contact = contact,
+            .turn_low = low,
+            .turn_high = high,
+            .crossed_slabs = crossed_slabs};
     WordNode node = node_of(run);
     cross_portals(scene_, node);
     if (!bound_node(scene_, target_, node)) return;
@@ -175,20 +181,28 @@ class SingleRuns {
   }
 
   /// The least bound of what is left, at most the target. What is worst is looked at
-  /// first: by its program, then in halves.
+  /// first: by its program, then across slabs, then in halves.
   double run() {
     while (!heap_.empty() && nodes_ > 0) {
       Run worst = heap_.front();
-      if (worst.is_bounded && worst.turn_high - worst.turn_low < kNarrowestTurn) break;
+      const bool crosses_slabs = asks_slabs_ && !worst.crossed_slabs;
+      if (worst.is_bounded && !crosses_slabs &&
+          worst.turn_high - worst.turn_low < kNarrowestTurn) {
+        break;
+      }
       std::pop_heap(heap_.begin(), heap_.end());
       heap_.pop_back();
       if (!worst.is_bounded) {
         bound_by_program(worst);
-        continue;
+      } else if (crosses_slabs) {
+        bound_by_slabs(worst);
+        keep(worst);
+      } else {
+        const auto [contact, low, high, bound, is_bounded, crossed_slabs] = worst;
+        const double middle = 0.5 * (low + high);
+        add(contact, low, middle, bound, crossed_slabs);
+        add(contact, middle, high, bound, crossed_slabs);
       }
-      const double middle = 0.5 * (worst.turn_low + worst.turn_high);
-      add(worst.contact, worst.turn_low, middle, worst.bound);
-      add(worst.contact, middle, worst.turn_high, worst.bound);
     }
     const double left = heap_.empty() ? target_ : heap_.front().bound;
     return std::min(left, others_.run(question_));
@@ -198,7 +212,8 @@ class SingleRuns {
   struct Run {
     int contact = 0;
     double turn_low = 0.0, turn_high = 0.0, bound = 0.0;
-    bool is_bounded = false;  // by its program
+    bool is_bounded = false;     // by its program
+    bool crossed_slabs = false;  // this one, or one that it is a part of
     bool operator<(const Run& other) const { return bound > other.bound; }
   };
 
@@ -231,7 +246,10 @@ class SingleRuns {
                    .turn_high = run.turn_high,
                    .cap = (target_ - 1.0) * scene_.L});
     if (travel <= 0.0) {  // the goal is not ahead: gravity has to help
+      if (asks_slabs_) bound_by_slabs(run);
+      if (run.bound >= target_) return;
       WordNode node = node_of(run);
+      node.bound = std::max(node.bound, run.bound);
       return others_.add(node);
     }
     nodes_ -= kNodesPerRun;
@@ -240,10 +258,27 @@ class SingleRuns {
     keep(run);
   }
 
+  /// All inequalities of an instant together, which the program knows one by one.
+  void bound_by_slabs(Run& run) const {
+    run.crossed_slabs = true;
+    const double travel =
+        travel_across_slabs({.law = &question_.slabs->law(),
+                             .contact = run.contact,
+                             .c = scene_.c,
+                             .outline = &scene_.outline,
+                             .start = question_.p_OF,
+                             .goal = goal_arc(question_, run.turn_low, run.turn_high),
+                             .turn_low = run.turn_low,
+                             .turn_high = run.turn_high,
+                             .cap = (target_ - 1.0) * scene_.L});
+    run.bound = std::max(run.bound, 1.0 + travel / scene_.L);
+  }
+
   const WordScene& scene_;
   const WordQuestion& question_;
   double target_;
   std::int64_t& nodes_;
+  bool asks_slabs_;  // not while plans are looked for among the nodes
   std::vector<Run> heap_;
   OpenNodes others_;
 };
@@ -255,7 +290,7 @@ double single_runs(const WordScene& scene, const WordQuestion& question, double 
   const auto pieces = goal_pieces(scene, question, (target - 1.0) * scene.L);
   const int contacts = static_cast<int>(scene.laws->contacts.size());
   for (int contact = 0; contact < contacts; ++contact) {
-    for (const TurnPiece& piece : pieces) runs.add(contact, piece.low, piece.high, 1.0);
+    for (const TurnPiece& piece : pieces) runs.add(contact, piece.low, piece.high);
   }
   return runs.run();
 }

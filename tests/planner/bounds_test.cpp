@@ -1,6 +1,9 @@
 #include "planner/bounds.h"
 
 #include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -254,6 +257,20 @@ TEST(Bounds, AreTrivialWhereTheLawsDoNotHold) {
 
 /// A plan file may claim anything: a claim that would have questions without number is
 /// no proof.
+/// No contact does these alone, which the program of single placements does not see:
+/// without slabs the bounds are 1.2 and 1.3.
+TEST(Bounds, TellThatOnePlacementDoesNotDo) {
+  for (const auto& [object, index] : {std::pair{FixtureObject::kConvex, 282},
+                                      std::pair{FixtureObject::kConcave, 104}}) {
+    const FixtureRange range{.object = object};
+    const Model model = prepare(random_fixture(range, 1, index)->scene);
+    const LowerBound bound =
+        lower_bound(model, model.scene.start, *model.scene.goal, 2.3);
+    EXPECT_GT(bound.value, 2.0) << index;
+    EXPECT_TRUE(bound_holds(model, model.scene.start, *model.scene.goal, bound.value));
+  }
+}
+
 TEST(Bounds, AbsurdClaimsAreRefused) {
   const Scene scene = published_tee(3);
   const Model model = prepare(scene);

@@ -1,0 +1,157 @@
+#include "planner/run_slabs.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "planner/chain.h"
+#include "planner/goal.h"
+#include "problems/random_fixtures.h"
+#include "tests/planner/law_cases.h"
+#include "tests/planner/planner_cases.h"
+
+namespace prehensile {
+namespace {
+
+using testing::Random;
+using testing::random_law_scene;
+
+RunSlabs question_of(const Model& model, const LocalLaw& law, int contact,
+                     const FlatState& from, const FlatState& to, double cap) {
+  const double turn = to.theta - from.theta;
+  return {.law = &law,
+          .contact = contact,
+          .c = model.c,
+          .outline = &model.pad_face,
+          .start = from.p_OF,
+          .goal = {.centre = to.p_OF},
+          .turn_low = turn,
+          .turn_high = turn,
+          .cap = cap};
+}
+
+/// Random pushes by one contact that stick: what the slabs say never forbids them, for
+/// any cap, and sometimes is nearly as long as the way.
+void attack(int scenes, int pushes, std::uint64_t seed) {
+  Random random(seed);
+  int walks = 0, sharp = 0;
+  for (int i = 0; i < scenes; ++i) {
+    const Model model = prepare(random_law_scene(random));
+    Margin margin = Margin::none();
+    margin.weightless = random.chance(0.3);
+    const SearchModel search = prepare_search(model, margin);
+    const LocalLaw law(model, margin.weightless);
+    ASSERT_TRUE(law.is_known());
+    Work work{.budget = testing::kNoBudget};
+    FlatState start = flat_state(model.scene.start);
+    start.p_OF = {random.in(-0.045, 0.045), random.in(-0.014, 0.014)};
+    const int contact = random.below(static_cast<int>(search.contacts.size()));
+    const StickContact& stick = search.contacts[contact].stick;
+    FlatState at = start;
+    double travel = 0.0;
+    for (int k = 0; k < pushes; ++k) {
+      const double lean = std::atan(stick.mu);
+      const Vec2 e = random.chance(0.6)
+                         ? rotated(random.chance(0.5) ? lean : -lean, stick.n)
+                         : random.direction();
+      const double length = random.log_in(1e-4, 0.03);
+      const KappaSet kappas = sticking_kappas(stick, at.p_OF, e);
+      if (kappas.empty()) continue;
+      const auto& interval = kappas.intervals[random.below(kappas.count)];
+      const double low = std::max(interval.lo, -30.0), high = std::min(interval.hi, 30.0);
+      if (low > high) continue;
+      const double kappa =
+          random.chance(0.5) ? std::clamp(0.0, low, high) : random.in(low, high);
+      const FlatState to{at.p_OF - length * e, at.theta + kappa * length / model.c};
+      if (!segment_on_object(model, at.p_OF, to.p_OF)) continue;
+      const Move move{contact, at, to};
+      if (!(move_slack(search, move, 12, work) >= -kStickTolerance)) continue;
+      travel += length * std::hypot(1.0, kappa);
+      at = to;
+      ++walks;
+      const double cap = travel * random.in(1.001, 1.5);
+      RunSlabs run =
+          question_of(model, law, search.contacts[contact].contact, start, at, cap);
+      const double least = travel_across_slabs(run);
+      EXPECT_LE(least, travel * (1.0 + 1e-6)) << i;
+      sharp += least > 0.9 * travel ? 1 : 0;
+      run.goal.slack.fill(1e-3);  // nor for goals around this one
+      run.turn_low -= random.in(0.0, 0.3);
+      EXPECT_LE(travel_across_slabs(run), travel * (1.0 + 1e-6)) << i;
+    }
+  }
+  EXPECT_GT(walks, scenes);
+  EXPECT_GT(sharp, walks / 20);
+}
+
+TEST(RunSlabs, NoRunOfStickingPushesIsShorter) { attack(60, 20, 1); }
+
+TEST(RunSlabs, FullNoRunOfStickingPushesIsShorter) { attack(4000, 40, 2); }
+
+/// A wall does not pull: where it would have to, no way is short enough, whatever the
+/// cap; a way ahead of it is as long as it is straight.
+TEST(RunSlabs, AWallOnlyPushes) {
+  Scene scene = with_soft_points(published_square(0));
+  scene.g_W.setZero();
+  const Model model = prepare(scene);
+  const LocalLaw law(model);
+  for (int contact = 0; contact < static_cast<int>(model.contacts.size()); ++contact) {
+    const Vec2 ahead = -0.02 * model.contacts[contact].n;
+    for (const double cap : {0.03, 0.1, 1.0}) {
+      const auto travel_to = [&](const Vec2& p_OF) {
+        return travel_across_slabs(
+            question_of(model, law, contact, {}, {p_OF, 0.0}, cap));
+      };
+      EXPECT_EQ(travel_to(-ahead), cap);
+      EXPECT_NEAR(travel_to(ahead), 0.02, 1e-4);
+    }
+  }
+}
+
+/// Gravity would help with each inequality of a sticking instant, in motions that another
+/// one denies: a contact for which the program, that has them one by one, says little.
+TEST(RunSlabs, AskForAllInequalitiesTogether) {
+  const FixtureRange range{.object = FixtureObject::kConvex};
+  const Model model = prepare(random_fixture(range, 1, 234)->scene);
+  const LocalLaw law(model);
+  const RunLaws laws = run_laws(model);
+  const FlatState start = flat_state(model.scene.start);
+  const GoalPlaces goals = goal_places(model, *model.scene.goal, start);
+  const FlatState to{goals.places[0].p_OF, goals.places[0].theta[0]};
+  const double cap = 2.0 * flat_distance(model, start, to);
+  int more = 0;
+  for (int contact = 0; contact < static_cast<int>(model.contacts.size()); ++contact) {
+    const RunSlabs run = question_of(model, law, contact, start, to, cap);
+    const double by_program = run_bound({.laws = &laws,
+                                         .contact = contact,
+                                         .c = model.c,
+                                         .outline = &model.pad_face,
+                                         .start = run.start,
+                                         .goal = run.goal,
+                                         .turn_low = run.turn_low,
+                                         .turn_high = run.turn_high,
+                                         .cap = cap});
+    more += travel_across_slabs(run) > 1.2 * by_program ? 1 : 0;
+  }
+  EXPECT_GT(more, 0);
+}
+
+TEST(RunSlabs, NoWayIsLongerThanTheCapAsked) {
+  Scene scene = with_soft_points(published_square(0));
+  const Model model = prepare(scene);
+  const LocalLaw law(model);
+  const FlatState to{{0.02, 0.01}, 0.3};
+  EXPECT_EQ(travel_across_slabs(question_of(model, law, 0, {}, to, 0.02)), 0.02);
+}
+
+TEST(RunSlabs, SaysNothingWhereTheFrictionIsNotKnown) {
+  Scene scene = published_tee(0);
+  scene.overhang = Overhang::kClip;
+  const Model model = prepare(scene);
+  const LocalLaw law(model);
+  const FlatState to{{0.02, 0.01}, 0.3};
+  EXPECT_EQ(travel_across_slabs(question_of(model, law, 0, {}, to, 1.0)), 0.0);
+}
+
+}  // namespace
+}  // namespace prehensile

@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "planner/bounds.h"
+#include "planner/chain_search.h"
 #include "planner/costs.h"
 #include "planner/exact_check.h"
 #include "planner/loosen_grip.h"
@@ -11,6 +13,7 @@
 #include "planner/polish.h"
 #include "planner/repair.h"
 #include "planner/run_search.h"
+#include "planner/three_pushes.h"
 #include "planner/trajectory.h"
 #include "planner/word_plans.h"
 
@@ -49,8 +52,14 @@ bool is_same_way(const Plan& a, const Plan& b) {
   return std::ranges::equal(a.pushes, b.pushes, is_same_push);
 }
 
-/// A plan found and a run of one placement in its stead, each polished, the cheapest
-/// first.
+bool is_far_from_bound(const SearchModel& search, const Plan& plan) {
+  const Goal goal = planar_goal(*search.model->scene.goal);
+  return plan.cost > kGoodEnough * guide_bound(*search.model, plan.start, goal);
+}
+
+/// A plan found, a run of one placement in its stead, and three pushes in the stead of
+/// both, each polished; and the best of them by what the real pads allow, where it may
+/// still be far from optimal. The cheapest first.
 std::vector<Plan> polished(const SearchModel& search, const Limits& limits, Work& work,
                            const Plan& plan) {
   std::vector<Plan> plans;
@@ -62,8 +71,20 @@ std::vector<Plan> polished(const SearchModel& search, const Limits& limits, Work
   Plan run = plan;
   if (improve_by_run(search, limits, work, run)) keep_polished(run);
   keep_polished(plan);
-  for (Plan& one : plans) account(*search.model, one);
-  std::ranges::stable_sort(plans, {}, &Plan::cost);
+  const auto sort = [&] {
+    for (Plan& one : plans) account(*search.model, one);
+    std::ranges::stable_sort(plans, {}, &Plan::cost);
+  };
+  sort();
+  Plan three = plans.front();
+  if (improve_by_three_pushes(search, limits, work, three)) keep_polished(three);
+  sort();
+  if (is_far_from_bound(search, plans.front())) {
+    Plan best = plans.front();
+    polish_with_real_pads(search, limits, work, best);
+    plans.push_back(best);
+    sort();
+  }
   return plans;
 }
 

@@ -14,6 +14,7 @@ constexpr double kInfeasible = 1e6;      // cost of way-points that no chain pas
 constexpr double kWorthwhile = 1e-4;     // relative gain below which the plan stays
 constexpr std::size_t kMostPushes = 12;  // beyond it sub-plex gains too little
 constexpr double kWorthBending = 0.02;   // relative gain for which pushes may be doubled
+constexpr double kWorthBendingOfRealPads = 0.005;  // done once, of the best plan only
 
 /// The best chain of a stretch that still sticks with the real pad; false if it gains
 /// nothing.
@@ -80,17 +81,18 @@ Stretch halved(const Stretch& stretch) {
 }
 
 /// Leaves out pushes and moves way-points until neither brings anything.
-void tighten(const SearchModel& search, const Limits& limits, Work& work,
+void tighten(const Steering& steering, const Limits& limits, Work& work,
              std::vector<PlannedPush>& pushes) {
+  const SearchModel& search = steering.search;
   Chain chain;
   while (pushes.size() >= 2 && pushes.size() <= kMostPushes && !limits.reached()) {
     Stretch stretch;
     if (!read_stretch(search, pushes, stretch)) return;
-    if (drop_a_push({search}, work, stretch, chain)) {
+    if (drop_a_push(steering, work, stretch, chain)) {
       pushes = pushes_of(search, stretch, chain);
       continue;
     }
-    if (shorten({search}, limits, work, stretch, chain)) {
+    if (shorten(steering, limits, work, stretch, chain)) {
       pushes = pushes_of(search, stretch, chain);
     }
     return;
@@ -98,32 +100,46 @@ void tighten(const SearchModel& search, const Limits& limits, Work& work,
 }
 
 /// Lets every push bend in its middle, where the plan gets shorter by that.
-void bend(const SearchModel& search, const Limits& limits, Work& work,
+void bend(const Steering& steering, const Limits& limits, Work& work,
           std::vector<PlannedPush>& pushes) {
+  const SearchModel& search = steering.search;
+  const double worth = steering.real_pads ? kWorthBendingOfRealPads : kWorthBending;
   Chain chain;
   while (2 * pushes.size() <= kMostPushes && !limits.reached()) {
     Stretch stretch;
     if (!read_stretch(search, pushes, stretch)) return;
-    if (!chain_of({search}, stretch, stretch.way_points, work, chain)) return;
+    if (!chain_of(steering, stretch, stretch.way_points, work, chain)) return;
     const double before = chain.cost;
     const Stretch halves = halved(stretch);
-    if (!shorten({search}, limits, work, halves, chain) ||
-        chain.cost > before * (1.0 - kWorthBending)) {
+    if (!shorten(steering, limits, work, halves, chain) ||
+        chain.cost > before * (1.0 - worth)) {
       return;
     }
     pushes = pushes_of(search, halves, chain);
-    tighten(search, limits, work, pushes);
+    tighten(steering, limits, work, pushes);
   }
+}
+
+void polish_by(const Steering& steering, const Limits& limits, Work& work, Plan& plan) {
+  if (!nlopt_is_built()) return;
+  change_stretches(plan, [&](std::vector<PlannedPush>& pushes) {
+    tighten(steering, limits, work, pushes);
+    if (pushes.size() >= 2) bend(steering, limits, work, pushes);
+  });
 }
 
 }  // namespace
 
 void polish(const SearchModel& search, const Limits& limits, Work& work, Plan& plan) {
-  if (!nlopt_is_built()) return;
-  change_stretches(plan, [&](std::vector<PlannedPush>& pushes) {
-    tighten(search, limits, work, pushes);
-    if (pushes.size() >= 2) bend(search, limits, work, pushes);
-  });
+  polish_by({search}, limits, work, plan);
+}
+
+void polish_with_real_pads(const SearchModel& search, const Limits& limits, Work& work,
+                           Plan& plan) {
+  const Model& model = *search.model;
+  if (can_roll(model.scene.object) || model.has_soft_points()) return;
+  const PadEnvelope pads(model, search.margin);
+  polish_by({search, true, &pads}, limits, work, plan);
 }
 
 }  // namespace prehensile

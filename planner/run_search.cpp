@@ -9,6 +9,7 @@
 #include "planner/costs.h"
 #include "planner/push_search.h"
 #include "planner/run_bound.h"
+#include "planner/spread_pads.h"
 
 namespace prehensile {
 namespace {
@@ -207,7 +208,9 @@ std::optional<Chain> search_runs(const SearchModel& search, const FlatState& sta
 bool improve_by_run(const SearchModel& search, const Limits& limits, Work& work,
                     Plan& plan) {
   const Model& model = *search.model;
-  if (!search.exact_everywhere || plan.rolls() || plan.pushes.empty()) return false;
+  const bool clips = has_clipped_discs(model) && search.margin.is_none();
+  if (!search.exact_everywhere && !clips) return false;
+  if (plan.rolls() || plan.pushes.empty()) return false;
   const Goal goal = planar_goal(*model.scene.goal);
   account(model, plan);
   if (plan.cost <= kGoodEnough * guide_bound(model, plan.start, goal)) return false;

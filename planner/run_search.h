@@ -15,7 +15,10 @@ std::optional<Chain> search_runs(const SearchModel& search, const FlatState& sta
                                  Work& work);
 
 /// Replaces a plan over round pads that may be far from optimal by one of a single
-/// placement, if there is one that is cheaper; whether it did.
+/// placement, if there is one that is cheaper; whether it did. Where the face clips discs
+/// without a margin only: the program takes them for whole ones, and the pushes that
+/// follow its way-points have to stick with what is left of them. Pushes by a point count
+/// as one placement here, as in the search; the polish may make them one.
 bool improve_by_run(const SearchModel& search, const Limits& limits, Work& work,
                     Plan& plan);
 

@@ -2,10 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include "planner/chain_search.h"
+#include "planner/costs.h"
+#include "planner/exact_check.h"
 #include "planner/goal.h"
 #include "planner/limits.h"
+#include "planner/meet_end.h"
 #include "planner/planner.h"
+#include "planner/push_search.h"
+#include "planner/spread_pads.h"
 #include "problems/published_regrasps.h"
+#include "problems/random_fixtures.h"
+#include "tests/planner/planner_cases.h"
 
 namespace prehensile {
 namespace {
@@ -62,6 +70,41 @@ TEST(RunSearch, FollowsWherePointsPullAside) {
   EXPECT_LT(found->cost, 1.9);
   const double theta = scene.start.X_HO.theta;
   EXPECT_TRUE(chain_passes(search, *found, theta, work));
+}
+
+/// The program knows whole discs only; the pushes that follow its way-points stick with
+/// what the face leaves of them.
+TEST(RunSearch, FollowsOverClippedDiscs) {
+  const PlanOptions options;
+  int cheaper = 0;
+  for (std::uint64_t i = 0; i < 120; ++i) {
+    const FixtureRange range{.object = static_cast<FixtureObject>(i % 4)};
+    const Model model = prepare(random_fixture(range, 5, i)->scene);
+    if (!has_clipped_discs(model)) continue;
+    const SearchModel search = prepare_search(model, Margin::none());
+    Work work{.budget = testing::kNoBudget};
+    const Limits limits(options, work);
+    const FlatState start = flat_state(model.scene.start);
+    const GoalPlaces goals = goal_places(model, *model.scene.goal, start);
+    const auto found = search_chains(search, start, goals, 0.0, limits, work);
+    if (!found) continue;
+    Plan plan = blank_plan(search, model.scene.start, options);
+    append_chain(search, start, found->chain, plan);
+    account(model, plan);
+    const double before = plan.cost;
+    if (!improve_by_run(search, limits, work, plan)) continue;
+    if (is_by_point(model, plan.pushes.front().push)) continue;  // needs more places
+    account(model, plan);
+    EXPECT_LT(plan.cost, before) << i;
+    EXPECT_EQ(plan.placements, 1.0) << i;
+    for (const PlannedPush& planned : plan.pushes) {
+      EXPECT_GE(push_slack(model, planned.start, planned.push, plan.margin),
+                -kStickTolerance)
+          << i;
+    }
+    cheaper += plan.cost < 0.95 * before;
+  }
+  EXPECT_GT(cheaper, 0);
 }
 
 }  // namespace

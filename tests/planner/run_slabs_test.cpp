@@ -84,7 +84,7 @@ void attack(int scenes, int pushes, std::uint64_t seed) {
   EXPECT_GT(sharp, walks / 20);
 }
 
-TEST(RunSlabs, NoRunOfStickingPushesIsShorter) { attack(60, 20, 1); }
+TEST(RunSlabs, NoRunOfStickingPushesIsShorter) { attack(25, 20, 1); }
 
 TEST(RunSlabs, FullNoRunOfStickingPushesIsShorter) { attack(4000, 40, 2); }
 

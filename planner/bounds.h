@@ -30,7 +30,7 @@ inline constexpr double kGapAsked = 1.0999;
 /// Work of the bounds below: boxes of switch points looked at, about a microsecond each.
 /// What slabs cost (slab_travel.h, run_slabs.h) is not in it: 1 to 20 ms for a scene and
 /// a goal, where it comes to plans of three placements, and some milliseconds for each
-/// contact of which the program alone does not prove enough.
+/// contact and winding of which the program alone does not prove enough, nine at most.
 inline constexpr std::int64_t kBoundNodes = 6000;
 
 struct BoundOptions {

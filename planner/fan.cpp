@@ -180,6 +180,32 @@ std::optional<Combination> combine(const std::vector<Generator>& fan, const Vec3
   return std::nullopt;
 }
 
+std::span<const Order> orders_of(int count) {
+  static constexpr std::array<Order, 1> kOfOne = {{{0, 1, 2}}};
+  static constexpr std::array<Order, 2> kOfTwo = {{{0, 1, 2}, {1, 0, 2}}};
+  static constexpr std::array<Order, 6> kOfThree = {
+      {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
+  if (count <= 1) return kOfOne;
+  return count == 2 ? std::span<const Order>(kOfTwo) : kOfThree;
+}
+
+std::vector<Move> moves_in_order(const SearchModel& search,
+                                 const std::vector<Generator>& fan,
+                                 const Combination& combination, const Order& order,
+                                 const FlatState& from) {
+  std::vector<Move> moves;
+  FlatState at = from;
+  for (int k = 0; k < combination.count; ++k) {
+    const Generator& generator = fan[combination.generator[order[k]]];
+    if (generator.contact < 0) continue;
+    const Vec3 d = combination.amount[order[k]] * generator.u;
+    const FlatState next{at.p_OF + d.head<2>(), at.theta + d[2] / search.model->c};
+    moves.push_back({generator.contact, at, next});
+    at = next;
+  }
+  return moves;
+}
+
 void free_rotation(std::vector<Generator>& fan) {
   fan.push_back({-1, Vec3::UnitZ()});
   fan.push_back({-1, -Vec3::UnitZ()});

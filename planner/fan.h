@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "mechanics/pad_envelope.h"
@@ -68,6 +69,18 @@ inline constexpr double kFreeRotationCost = 0.2;
 /// Revised simplex on three rows.
 std::optional<Combination> combine(const std::vector<Generator>& fan, const Vec3& step,
                                    double free_rotation_cost = kFreeRotationCost);
+
+/// A sequence of the generators of a combination, and all sequences of so many (up to
+/// three), each once.
+using Order = std::array<int, 3>;
+std::span<const Order> orders_of(int count);
+
+/// The moves of a combination one after the other, from a state on; free rotation is
+/// left out.
+std::vector<Move> moves_in_order(const SearchModel& search,
+                                 const std::vector<Generator>& fan,
+                                 const Combination& combination, const Order& order,
+                                 const FlatState& from);
 
 /// Adds a generator each way that turns the object without a push: steps then fix the
 /// place only, and the rotation that the real pushes make is a by-product.

@@ -23,18 +23,6 @@ constexpr int kBranchNodes = 200;      // lattice of places where legs may begin
 constexpr int kMostBranches = 8;
 
 using Moves = std::vector<Move>;
-using Order = std::array<int, 3>;
-constexpr std::array<Order, 6> kOrders = {
-    {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
-
-/// One of the orders of the first `count` of three.
-bool orders_first(const Order& order, int count) {
-  for (int k = count; k < 3; ++k) {
-    if (order[k] != k) return false;
-  }
-  return true;
-}
-
 bool limits_theta(const Scene& scene) {
   return scene.limits && (scene.limits->theta_low || scene.limits->theta_high);
 }
@@ -114,8 +102,7 @@ class FanSearch {
               const FlatState& at, FlatState& next, bool drifts, Moves& moves) {
     const int contact = moves.empty() ? -1 : moves.back().contact;
     for (const bool wants_to_go_on : {true, false}) {
-      for (const Order& order : kOrders) {
-        if (!orders_first(order, found.count)) continue;
+      for (const Order& order : orders_of(found.count)) {
         const bool goes_on = fan[found.generator[order[0]]].contact == contact;
         if (goes_on != wants_to_go_on) continue;
         if (append_in_order(fan, found, order, at, next, drifts, moves)) return true;
@@ -127,27 +114,15 @@ class FanSearch {
   bool append_in_order(const std::vector<Generator>& fan, const Combination& found,
                        const Order& order, const FlatState& at, FlatState& next,
                        bool drifts, Moves& moves) {
-    const std::size_t before = moves.size();
-    FlatState state = at;
-    for (int k = 0; k < found.count; ++k) {
-      const Generator& generator = fan[found.generator[order[k]]];
-      if (generator.contact < 0) continue;
-      const Vec3 d = found.amount[order[k]] * generator.u;
-      const FlatState end{state.p_OF + d.head<2>(),
-                          state.theta + d[2] / search_.model->c};
-      moves.push_back({generator.contact, state, end});
-      state = end;
+    Moves more = moves_in_order(search_, fan, found, order, at);
+    if (!drifts && !more.empty()) more.back().to = next;  // without rounding
+    for (const Move& move : more) {
+      const bool passes =
+          drifts ? move_holds(search_, move, work_) : move_passes(search_, move, work_);
+      if (!passes) return false;
     }
-    if (!drifts && moves.size() > before) moves.back().to = next;  // without rounding
-    for (std::size_t i = before; i < moves.size(); ++i) {
-      const bool passes = drifts ? move_holds(search_, moves[i], work_)
-                                 : move_passes(search_, moves[i], work_);
-      if (!passes) {
-        moves.resize(before);
-        return false;
-      }
-    }
-    if (drifts) next = state;
+    if (drifts) next = more.empty() ? at : more.back().to;
+    moves.insert(moves.end(), more.begin(), more.end());
     return true;
   }
 

@@ -14,8 +14,8 @@ namespace prehensile {
 void polish(const SearchModel& search, const Limits& limits, Work& work, Plan& plan);
 
 /// The same with rotations that the pads themselves allow at every angle instead of the
-/// closed form's, for some ten times the work. Not of cans, nor over soft points, whose
-/// friction the closed form knows.
+/// closed form's, for two to three times the work. Not of cans, nor over soft points,
+/// whose friction the closed form knows.
 void polish_with_real_pads(const SearchModel& search, const Limits& limits, Work& work,
                            Plan& plan);
 

@@ -83,8 +83,8 @@ class Ellipse {
 };
 
 /// The bound by slabs across u, for a share of the turn.
-double travel_along(const RunSlabs& run, const Ellipse& ellipse, const Vec2& u,
-                    double share, const Fineness& fineness) {
+double travel_along(const LocalLaw& law, const RunQuestion& run, const Ellipse& ellipse,
+                    const Vec2& u, double share, const Fineness& fineness) {
   const double begin = u.dot(run.start) + kRounding;
   const double end = u.dot(run.goal.centre) - run.goal.reach(u) - kRounding;
   if (end <= begin) return 0.0;
@@ -99,7 +99,7 @@ double travel_along(const RunSlabs& run, const Ellipse& ellipse, const Vec2& u,
     slab.across = {std::max(inside.low, reached.low - kRounding),
                    std::min(inside.high, reached.high + kRounding)};
     const double extent = slab.across.high - slab.across.low;
-    travel += width * least_cost(*run.law, slab,
+    travel += width * least_cost(law, slab,
                                  {.first_contact = run.contact,
                                   .end_contact = run.contact + 1,
                                   .share = share,
@@ -111,8 +111,8 @@ double travel_along(const RunSlabs& run, const Ellipse& ellipse, const Vec2& u,
 
 }  // namespace
 
-double travel_across_slabs(const RunSlabs& run) {
-  if (!run.law->is_known()) return 0.0;
+double travel_across_slabs(const LocalLaw& law, const RunQuestion& run) {
+  if (!law.is_known()) return 0.0;
   const double off_goal = run.goal.arc.norm() + run.goal.widest();
   const Ellipse ellipse(run.start, run.goal.centre, run.cap + off_goal + kRounding);
   if (ellipse.is_empty()) return run.cap;
@@ -121,7 +121,7 @@ double travel_across_slabs(const RunSlabs& run) {
   const auto look = [&](double angle, double share) {
     if (most >= run.cap || std::cos(angle) <= kLeastAhead) return;
     const Vec2 u = rotated(angle, ellipse.axis());
-    const double travel = travel_along(run, ellipse, u, share, kCoarse);
+    const double travel = travel_along(law, run, ellipse, u, share, kCoarse);
     if (travel <= most) return;
     most = travel;
     best_angle = angle;
@@ -135,8 +135,9 @@ double travel_across_slabs(const RunSlabs& run) {
     }
   }
   if (most > 0.0 && most < run.cap) {
-    most = std::max(most, travel_along(run, ellipse, rotated(best_angle, ellipse.axis()),
-                                       best_share, kFine));
+    most = std::max(most,
+                    travel_along(law, run, ellipse, rotated(best_angle, ellipse.axis()),
+                                 best_share, kFine));
   }
   return std::min(most, run.cap);
 }

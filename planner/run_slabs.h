@@ -14,19 +14,9 @@
 
 namespace prehensile {
 
-struct RunSlabs {
-  const LocalLaw* law = nullptr;
-  int contact = 0;
-  double c = 0.0;                              ///< [m]
-  const std::vector<Vec2>* outline = nullptr;  ///< where the finger axis may be
-  Vec2 start = Vec2::Zero();
-  GoalArc goal;
-  double turn_low = 0.0, turn_high = 0.0;  ///< [rad]
-  double cap = 0.0;  ///< [m] travel of interest: more need not be proved
-};
-
-/// A bound on the travel of every run from the start to the goal, at most `cap`; 0 where
-/// the law is not known. A few milliseconds.
-double travel_across_slabs(const RunSlabs& question);
+/// A bound on the travel of every run from the start to the goal [m], at most `cap`; 0
+/// where the law is not known. `run`: its laws are not asked. Some milliseconds, up to
+/// twenty. Allocates.
+double travel_across_slabs(const LocalLaw& law, const RunQuestion& run);
 
 }  // namespace prehensile

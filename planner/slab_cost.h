@@ -15,7 +15,7 @@ struct Slab {
 };
 
 struct SlabQuestion {
-  int first_contact = 0, end_contact = 0;  ///< of these, the last excluded
+  int first_contact = 0, end_contact = 0;  ///< of Model::contacts, the last excluded
   double share = 0.0;                      ///< in (-1, 1)
   int steps = 0;                           ///< of the branch and bound
   /// [m] that across the slab are worth dividing as much as half a turn of directions.
@@ -24,6 +24,7 @@ struct SlabQuestion {
 
 /// The least (dT - share c dtheta) / u.dp of motions that advance along u, from below, by
 /// branch and bound over places, directions and contacts; infinity if there are none.
+/// Allocates.
 double least_cost(const LocalLaw& law, const Slab& slab, const SlabQuestion& question);
 
 }  // namespace prehensile

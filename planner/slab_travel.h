@@ -25,7 +25,7 @@ class SlabTravel {
   SlabTravel(const Model& model, bool weightless)
       : model_(model), weightless_(weightless) {}
 
-  /// The law of single instants.
+  /// The law of single instants, made when it is first asked for.
   const LocalLaw& law();
 
   /// Least travel [m] of plans that carry the finger axis from one place to one of others

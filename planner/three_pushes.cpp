@@ -23,8 +23,6 @@ constexpr std::array kAlong = {0.5, 0.15, 0.85};  // shares of the way, of the f
 constexpr std::array kDepths = {0.02, 0.1, 0.3};  // of moves in their ranges
 
 using Moves = std::vector<Move>;
-constexpr std::array<std::array<int, 3>, 6> kOrders = {
-    {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
 
 class ThreePushes {
  public:
@@ -54,7 +52,8 @@ class ThreePushes {
     return way;
   }
 
-  /// From the fan as far in its ranges as it takes until the pushes stick.
+  /// Moves at the ends of their ranges make the shortest ways, those within stick more
+  /// often all along: both are looked at.
   void by_contact(int contact, const GoalPlaces& goals) {
     SearchModel one = search_;
     one.contacts = {search_.contacts[contact]};
@@ -89,7 +88,7 @@ class ThreePushes {
     double length = 0.0;
     for (int k = 0; k < found->count; ++k) length += found->amount[k];
     if (length >= room()) return;
-    for (const auto& order : kOrders) {
+    for (const Order& order : orders_of(found->count)) {
       auto moves = in_order(fan, *found, order, goal);
       if (!moves) continue;
       moves = shortened(search_, *moves, limits_, work_);
@@ -100,18 +99,9 @@ class ThreePushes {
   }
 
   std::optional<Moves> in_order(const std::vector<Generator>& fan,
-                                const Combination& found, const std::array<int, 3>& order,
+                                const Combination& found, const Order& order,
                                 const FlatState& goal) {
-    Moves moves;
-    FlatState at = start_;
-    for (const int k : order) {
-      if (k >= found.count) continue;
-      const Generator& generator = fan[found.generator[k]];
-      const Vec3 d = found.amount[k] * generator.u;
-      const FlatState next{at.p_OF + d.head<2>(), at.theta + d[2] / search_.model->c};
-      moves.push_back({generator.contact, at, next});
-      at = next;
-    }
+    Moves moves = moves_in_order(search_, fan, found, order, start_);
     if (moves.empty()) return std::nullopt;
     moves.back().to = goal;  // without rounding
     for (const Move& move : moves) {

@@ -15,7 +15,9 @@ namespace {
 
 constexpr int kMostPlacements = 6;
 constexpr int kPlacementsOfSlabs = 3;  // from which on it pays to ask what slabs cost
-constexpr std::int64_t kNodesPerRun = 700;  // as long as a bound of a run takes
+// As long as the program of a run takes; where there is none its slabs cost as much,
+// which also limits how many are asked.
+constexpr std::int64_t kNodesPerRun = 700;
 
 /// A node that is open: best first, of equal ones the older.
 struct OpenNode {
@@ -234,19 +236,25 @@ class SingleRuns {
     std::push_heap(heap_.begin(), heap_.end());
   }
 
+  RunQuestion question_of(const Run& run) const {
+    return {.laws = scene_.laws,
+            .contact = run.contact,
+            .c = scene_.c,
+            .outline = &scene_.outline,
+            .start = question_.p_OF,
+            .goal = goal_arc(question_, run.turn_low, run.turn_high),
+            .turn_low = run.turn_low,
+            .turn_high = run.turn_high,
+            .cap = (target_ - 1.0) * scene_.L};
+  }
+
   void bound_by_program(Run& run) {
-    const double travel =
-        run_bound({.laws = scene_.laws,
-                   .contact = run.contact,
-                   .c = scene_.c,
-                   .outline = &scene_.outline,
-                   .start = question_.p_OF,
-                   .goal = goal_arc(question_, run.turn_low, run.turn_high),
-                   .turn_low = run.turn_low,
-                   .turn_high = run.turn_high,
-                   .cap = (target_ - 1.0) * scene_.L});
+    const double travel = run_bound(question_of(run));
     if (travel <= 0.0) {  // the goal is not ahead: gravity has to help
-      if (asks_slabs_) bound_by_slabs(run);
+      if (asks_slabs_) {
+        nodes_ -= kNodesPerRun;
+        bound_by_slabs(run);
+      }
       if (run.bound >= target_) return;
       WordNode node = node_of(run);
       node.bound = std::max(node.bound, run.bound);
@@ -261,16 +269,7 @@ class SingleRuns {
   /// All inequalities of an instant together, which the program knows one by one.
   void bound_by_slabs(Run& run) const {
     run.crossed_slabs = true;
-    const double travel =
-        travel_across_slabs({.law = &question_.slabs->law(),
-                             .contact = run.contact,
-                             .c = scene_.c,
-                             .outline = &scene_.outline,
-                             .start = question_.p_OF,
-                             .goal = goal_arc(question_, run.turn_low, run.turn_high),
-                             .turn_low = run.turn_low,
-                             .turn_high = run.turn_high,
-                             .cap = (target_ - 1.0) * scene_.L});
+    const double travel = travel_across_slabs(question_.slabs->law(), question_of(run));
     run.bound = std::max(run.bound, 1.0 + travel / scene_.L);
   }
 

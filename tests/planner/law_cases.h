@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "mechanics/sticking.h"
 #include "planner/ring_pads.h"
 #include "planner/spread_pads.h"
+#include "planner/steering.h"
 #include "problems/pad_shapes.h"
 #include "problems/published_regrasps.h"
 #include "tests/support/random.h"
@@ -79,6 +81,31 @@ inline double advance_of(const PushContact& contact, const Vec2& p_OF, const Vec
     return contact.n.dot(e + omega * perp(end - p_OF));
   };
   return std::max(rate(contact.a), rate(contact.b));
+}
+
+/// A random move by a contact that sticks, if one is hit: most of them along the edges of
+/// the friction cone, where ways are cheap.
+inline std::optional<Move> random_sticking_move(const SearchModel& search, int contact,
+                                                const FlatState& from, Random& random,
+                                                Work& work) {
+  const StickContact& stick = search.contacts[contact].stick;
+  const double lean = std::atan(stick.mu);
+  const Vec2 e = random.chance(0.6) ? rotated(random.chance(0.5) ? lean : -lean, stick.n)
+                                    : random.direction();
+  const double length = random.log_in(1e-4, 0.03);
+  const KappaSet kappas = sticking_kappas(stick, from.p_OF, e);
+  if (kappas.empty()) return std::nullopt;
+  const auto& interval = kappas.intervals[random.below(kappas.count)];
+  const double low = std::max(interval.lo, -30.0), high = std::min(interval.hi, 30.0);
+  if (low > high) return std::nullopt;
+  const double kappa =
+      random.chance(0.5) ? std::clamp(0.0, low, high) : random.in(low, high);
+  const FlatState to{from.p_OF - length * e,
+                     from.theta + kappa * length / search.model->c};
+  if (!segment_on_object(*search.model, from.p_OF, to.p_OF)) return std::nullopt;
+  const Move move{contact, from, to};
+  if (!(move_slack(search, move, 12, work) >= -kStickTolerance)) return std::nullopt;
+  return move;
 }
 
 }  // namespace prehensile::testing

@@ -10,7 +10,10 @@
 
 #include <gtest/gtest.h>
 
+#include "planner/chain_search.h"
+#include "planner/costs.h"
 #include "planner/planner.h"
+#include "planner/push_search.h"
 #include "planner/steering.h"
 #include "problems/published_regrasps.h"
 #include "problems/random_fixtures.h"
@@ -54,6 +57,20 @@ inline Scene box_with_angle_limits(std::uint64_t index) {
   scene.limits = GraspLimits{.theta_low = start + std::min(turn, 0.0) - 0.3,
                              .theta_high = start + std::max(turn, 0.0) + 0.3};
   return scene;
+}
+
+/// The plan that the first stages find, of two and more pushes unless one is enough,
+/// without a look for anything cheaper; without pushes if they find none.
+inline Plan plan_of_first_stages(const SearchModel& search, const Limits& limits,
+                                 Work& work) {
+  const Scene& scene = search.model->scene;
+  Plan plan = blank_plan(search, scene.start, {});
+  const FlatState start = flat_state(scene.start);
+  const GoalPlaces goals = goal_places(*search.model, *scene.goal, start);
+  const auto found = search_chains(search, start, goals, 0.0, limits, work);
+  if (found) append_chain(search, start, found->chain, plan);
+  account(*search.model, plan);
+  return plan;
 }
 
 /// Expects that every move ends within the limits of the angle.

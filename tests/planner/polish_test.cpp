@@ -5,10 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "optimisation/nonlinear_program.h"
-#include "planner/chain_search.h"
 #include "planner/costs.h"
 #include "planner/exact_check.h"
-#include "planner/push_search.h"
 #include "problems/published_regrasps.h"
 #include "problems/random_fixtures.h"
 #include "tests/planner/planner_cases.h"
@@ -16,17 +14,7 @@
 namespace prehensile {
 namespace {
 
-/// The plan of two and more pushes that the first stages find; empty if they find none.
-Plan plan_of_chain(const SearchModel& search, const Limits& limits, Work& work) {
-  const Scene& scene = search.model->scene;
-  Plan plan = blank_plan(search, scene.start, {});
-  const FlatState start = flat_state(scene.start);
-  const GoalPlaces goals = goal_places(*search.model, *scene.goal, start);
-  const auto found = search_chains(search, start, goals, 0.0, limits, work);
-  if (found) append_chain(search, start, found->chain, plan);
-  account(*search.model, plan);
-  return plan;
-}
+using testing::plan_of_first_stages;
 
 /// The closed form hides ways that the pads allow: the second polish goes on where the
 /// first ends, ends where it does, and what it leaves sticks.
@@ -39,7 +27,7 @@ TEST(Polish, RealPadsKnowShorterWays) {
     const SearchModel search = prepare_search(model, Margin::none());
     Work work{.budget = testing::kNoBudget};
     const Limits limits(options, work);
-    Plan plan = plan_of_chain(search, limits, work);
+    Plan plan = plan_of_first_stages(search, limits, work);
     if (plan.pushes.size() < 2) continue;
     ++asked;
     polish(search, limits, work, plan);
@@ -75,7 +63,7 @@ TEST(Polish, OverSoftPointsTheClosedFormIsEnough) {
     const SearchModel search = prepare_search(model, Margin::none());
     Work work{.budget = testing::kNoBudget};
     const Limits limits(options, work);
-    Plan plan = plan_of_chain(search, limits, work);
+    Plan plan = plan_of_first_stages(search, limits, work);
     const std::int64_t before = work.done();
     polish_with_real_pads(search, limits, work, plan);
     EXPECT_EQ(work.done(), before);

@@ -2,14 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/chain_search.h"
 #include "planner/costs.h"
 #include "planner/exact_check.h"
 #include "planner/goal.h"
 #include "planner/limits.h"
 #include "planner/meet_end.h"
 #include "planner/planner.h"
-#include "planner/push_search.h"
 #include "planner/spread_pads.h"
 #include "problems/published_regrasps.h"
 #include "problems/random_fixtures.h"
@@ -84,13 +82,8 @@ TEST(RunSearch, FollowsOverClippedDiscs) {
     const SearchModel search = prepare_search(model, Margin::none());
     Work work{.budget = testing::kNoBudget};
     const Limits limits(options, work);
-    const FlatState start = flat_state(model.scene.start);
-    const GoalPlaces goals = goal_places(model, *model.scene.goal, start);
-    const auto found = search_chains(search, start, goals, 0.0, limits, work);
-    if (!found) continue;
-    Plan plan = blank_plan(search, model.scene.start, options);
-    append_chain(search, start, found->chain, plan);
-    account(model, plan);
+    Plan plan = testing::plan_of_first_stages(search, limits, work);
+    if (plan.pushes.empty()) continue;
     const double before = plan.cost;
     if (!improve_by_run(search, limits, work, plan)) continue;
     if (is_by_point(model, plan.pushes.front().push)) continue;  // needs more places

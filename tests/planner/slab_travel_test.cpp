@@ -14,6 +14,7 @@ namespace {
 
 using testing::Random;
 using testing::random_law_scene;
+using testing::random_sticking_move;
 
 /// T among walls, without weight, pads with the friction of the ellipsoid.
 Scene weightless_tee() {
@@ -42,25 +43,10 @@ void attack(int scenes, int pushes, std::uint64_t seed) {
     double travel = 0.0;
     for (int k = 0; k < pushes; ++k) {
       const int contact = random.below(static_cast<int>(search.contacts.size()));
-      const StickContact& stick = search.contacts[contact].stick;
-      const double lean = std::atan(stick.mu);
-      const Vec2 e = random.chance(0.6)
-                         ? rotated(random.chance(0.5) ? lean : -lean, stick.n)
-                         : random.direction();
-      const double length = random.log_in(1e-4, 0.03);
-      const KappaSet kappas = sticking_kappas(stick, at.p_OF, e);
-      if (kappas.empty()) continue;
-      const auto& interval = kappas.intervals[random.below(kappas.count)];
-      const double low = std::max(interval.lo, -30.0), high = std::min(interval.hi, 30.0);
-      if (low > high) continue;
-      const double kappa =
-          random.chance(0.5) ? std::clamp(0.0, low, high) : random.in(low, high);
-      const FlatState to{at.p_OF - length * e, at.theta + kappa * length / model.c};
-      if (!segment_on_object(model, at.p_OF, to.p_OF)) continue;
-      const Move move{contact, at, to};
-      if (!(move_slack(search, move, 12, work) >= -kStickTolerance)) continue;
-      travel += length * std::hypot(1.0, kappa);
-      at = to;
+      const auto move = random_sticking_move(search, contact, at, random, work);
+      if (!move) continue;
+      travel += flat_distance(model, at, move->to);
+      at = move->to;
       ++walks;
       const double turn = at.theta - start.theta;
       const double straight = std::hypot((at.p_OF - start.p_OF).norm(), model.c * turn);

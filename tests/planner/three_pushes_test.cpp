@@ -4,10 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/chain.h"
+#include "planner/bounds.h"
 #include "planner/chain_search.h"
 #include "planner/costs.h"
-#include "planner/push_search.h"
 #include "problems/published_regrasps.h"
 #include "problems/random_fixtures.h"
 #include "tests/planner/planner_cases.h"
@@ -15,17 +14,7 @@
 namespace prehensile {
 namespace {
 
-/// The plan that the first stages find, without a look for anything cheaper.
-Plan first_plan(const SearchModel& search, const Limits& limits, Work& work) {
-  const Scene& scene = search.model->scene;
-  Plan plan = blank_plan(search, scene.start, {});
-  const FlatState start = flat_state(scene.start);
-  const GoalPlaces goals = goal_places(*search.model, *scene.goal, start);
-  const auto found = search_chains(search, start, goals, 0.0, limits, work);
-  if (found) append_chain(search, start, found->chain, plan);
-  account(*search.model, plan);
-  return plan;
-}
+using testing::plan_of_first_stages;
 
 /// One contact does in three directions what cost more, and each push sticks.
 TEST(ThreePushes, OfOneContactCostLess) {
@@ -37,7 +26,7 @@ TEST(ThreePushes, OfOneContactCostLess) {
     const SearchModel search = prepare_search(model, Margin::none());
     Work work{.budget = testing::kNoBudget};
     const Limits limits(options, work);
-    Plan plan = first_plan(search, limits, work);
+    Plan plan = plan_of_first_stages(search, limits, work);
     if (plan.pushes.empty()) continue;
     ++asked;
     const double before = plan.cost;
@@ -60,21 +49,29 @@ TEST(ThreePushes, OfOneContactCostLess) {
 /// Of what cannot be much cheaper nothing is asked, nor over soft points.
 TEST(ThreePushes, AreNotLookedForInVain) {
   const PlanOptions options;
-  for (int i = 0; i < 20; ++i) {
-    const bool soft = i % 2 == 0;
-    const Scene scene = published_square(i);
-    const Model model = prepare(soft ? with_soft_points(scene) : scene);
+  int good = 0, soft = 0;
+  for (std::uint64_t i = 0; i < 60; ++i) {
+    const FixtureRange range{.object = static_cast<FixtureObject>(i % 4)};
+    const bool is_soft = i % 3 == 0;
+    const Scene scene = random_fixture(range, 5, i)->scene;
+    const Model model = prepare(is_soft ? with_soft_points(scene) : scene);
     const SearchModel search = prepare_search(model, Margin::none());
     Work work{.budget = testing::kNoBudget};
     const Limits limits(options, work);
-    Plan plan = first_plan(search, limits, work);
-    if (plan.pushes.size() != 1 && !soft) continue;
+    Plan plan = plan_of_first_stages(search, limits, work);
+    if (plan.pushes.empty()) continue;
+    const double bound = guide_bound(model, model.scene.start, *model.scene.goal);
+    const bool is_good = plan.cost <= kGoodEnough * bound;
+    if (!is_soft && !is_good) continue;
+    good += is_soft ? 0 : 1;
+    soft += is_soft && !is_good ? 1 : 0;
     const std::int64_t before = work.done();
-    const std::size_t pushes = plan.pushes.size();
     EXPECT_FALSE(improve_by_three_pushes(search, limits, work, plan)) << i;
     EXPECT_EQ(work.done(), before) << i;
-    EXPECT_EQ(plan.pushes.size(), pushes) << i;
+    EXPECT_FALSE(plan.pushes.empty()) << i;
   }
+  EXPECT_GT(good, 0);
+  EXPECT_GT(soft, 0);
 }
 
 }  // namespace

@@ -19,9 +19,10 @@ constexpr double kNoPlan = std::numeric_limits<double>::infinity();
 constexpr Fineness kCoarse = {200, 12};
 constexpr Fineness kFine = {800, 20};  // in search of better plans
 constexpr Fineness kFinest = {3000, 40};
-constexpr Fineness kMedium = {140, 10};  // the first where plans of two pushes fail
-constexpr Fineness kSparse = {50,
-                              7};  // and for rotations of the real pads, which cost most
+constexpr Fineness kFew = {90, 7};  // the first where plans of two pushes fail
+constexpr Fineness kMedium = {140, 7};
+constexpr Fineness kMore = {170, 7};
+constexpr Fineness kSparse = {50, 7};  // for rotations of the real pads, which cost most
 
 class ChainSearch {
  public:
@@ -72,17 +73,19 @@ class ChainSearch {
 
   /// Fewer nodes first: the time goes with the square of their number.
   std::optional<FoundChain> run_exact_labels() {
-    for (const Fineness& fineness : {kMedium, kCoarse}) {
-      if (found_ || limits_.reached()) break;
-      try_labels(steering_.back(), fineness, kNoPlan);
+    const Steering& steering = steering_.back();
+    if (!limits_.reached()) try_labels(steering, kFew, kNoPlan);
+    if (!limits_.reached() && (!found_ || found_->is_near_least())) {
+      try_labels(steering, kMedium, kNoPlan);
     }
+    if (!limits_.reached() && !found_) try_labels(steering, kCoarse, kNoPlan);
     return found_;
   }
 
   std::optional<FoundChain> run_labels(const PadEnvelope* envelope, double to_beat) {
     for (const Steering& steering : steering_) {
       if (is_enough() || limits_.reached()) return found_;
-      try_labels(steering, kCoarse, to_beat);
+      try_labels(steering, to_beat < kNoPlan ? kMore : kCoarse, to_beat);
     }
     if (envelope && !is_enough() && !limits_.reached()) {
       try_labels({search_, true, envelope}, kSparse, to_beat);

@@ -11,6 +11,7 @@
 #include "planner/confines.h"
 #include "planner/shorten.h"
 #include "planner/turning_loop.h"
+#include "planner/walk_rest.h"
 #include "planner/walk_rows.h"
 #include "planner/walk_search.h"
 #include "planner/walk_turns.h"
@@ -81,7 +82,7 @@ class LoopSearch {
 
   std::optional<std::vector<Move>> run() {
     for (int i = 0; i < kMostRepairs && !limits_.reached(); ++i) {
-      const WalkRest rest(lattice_, states_.contacts(), limits_, work_);
+      const LeastRest rest = rest_of_walks(lattice_, states_.contacts(), limits_, work_);
       if (rest.after(lattice_.start(), -1) == kInfinity) return std::nullopt;
       const Walk walk = cheapest_walk(rest);
       if (walk.steps.empty()) return std::nullopt;
@@ -97,7 +98,7 @@ class LoopSearch {
   }
 
   /// Without a loop, or by the best one to either side.
-  Walk cheapest_walk(const WalkRest& rest) {
+  Walk cheapest_walk(const LeastRest& rest) {
     const WalkWays ways(lattice_, states_, rest, work_);
     Walk best = walk_around({}, {}, ways.way_on_from(-1));
     for (const int side : {1, -1}) {

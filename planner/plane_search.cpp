@@ -42,7 +42,8 @@ std::optional<std::vector<Move>> search_with_real_pads(const SearchModel& search
                          : moves ? cost_of(search, *moves)
                                  : kInfinity;
   if (moves && work.meter) work.meter->found(to_beat);
-  const bool is_dear = best && to_beat >= (best->chain.count > 2 ? kDear : kDearPair);
+  const bool is_dear = best && best->is_near_least() &&
+                       to_beat >= (best->chain.count > 2 ? kDear : kDearPair);
   if (limits.improves() || is_dear || (!best && !search.exact_everywhere)) {
     const auto found =
         search_long_chains(search, from, goals, pads, to_beat, limits, work);

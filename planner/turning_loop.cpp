@@ -22,7 +22,7 @@ constexpr int kEdgesPerTest = 16;
 
 class Howard {
  public:
-  Howard(WalkLattice& lattice, const WalkStates& states, const WalkRest& rest, int side,
+  Howard(WalkLattice& lattice, const WalkStates& states, const LeastRest& rest, int side,
          Work& work)
       : lattice_(lattice),
         states_(states),
@@ -213,7 +213,7 @@ class Howard {
 }  // namespace
 
 std::optional<TurningLoop> turning_loop(WalkLattice& lattice, const WalkStates& states,
-                                        const WalkRest& rest, int side,
+                                        const LeastRest& rest, int side,
                                         const Limits& limits, Work& work) {
   return Howard(lattice, states, rest, side, work).run(limits);
 }

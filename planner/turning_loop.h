@@ -23,7 +23,7 @@ struct TurningLoop {
 /// `side`: 1 turns in the positive sense, -1 in the other. None if no loop turns the
 /// object to that side, or a limit is reached.
 std::optional<TurningLoop> turning_loop(WalkLattice& lattice, const WalkStates& states,
-                                        const WalkRest& rest, int side,
+                                        const LeastRest& rest, int side,
                                         const Limits& limits, Work& work);
 
 }  // namespace prehensile

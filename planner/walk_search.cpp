@@ -113,7 +113,8 @@ class WalkSearch {
         limits_(limits),
         work_(work),
         c_(search.model->c),
-        rest_(lattice, static_cast<int>(search.contacts.size()), limits, work) {
+        rest_(rest_of_walks(lattice, static_cast<int>(search.contacts.size()), limits,
+                            work)) {
     const TurnWindow window = turns_from(search, start.theta);
     window_ = {c_ * std::max(window.low, -kMostTurn),
                c_ * std::min(window.high, kMostTurn)};
@@ -246,7 +247,7 @@ class WalkSearch {
   Work& work_;
   const double c_;     // [m]
   TurnWindow window_;  // of c dtheta [m]
-  WalkRest rest_;
+  LeastRest rest_;
   int buckets_compared_ = 0;  // and not yet counted as work
   std::vector<Kept> kept_;    // by node; room where one is reached
   std::vector<Label> labels_;

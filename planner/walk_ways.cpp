@@ -19,7 +19,7 @@ double placed(const WalkEdge& edge, int contact_before) {
 
 }  // namespace
 
-WalkWays::WalkWays(WalkLattice& lattice, const WalkStates& states, const WalkRest& rest,
+WalkWays::WalkWays(WalkLattice& lattice, const WalkStates& states, const LeastRest& rest,
                    Work& work)
     : lattice_(lattice),
       states_(states),

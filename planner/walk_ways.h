@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "planner/walk_lattice.h"
-#include "planner/walk_rest.h"
+#include "planner/least_rest.h"
 
 namespace prehensile {
 
@@ -36,7 +36,7 @@ class WalkStates {
 /// Of the edges that the lattice has now, as the rest is. The three must outlive it.
 class WalkWays {
  public:
-  WalkWays(WalkLattice& lattice, const WalkStates& states, const WalkRest& rest,
+  WalkWays(WalkLattice& lattice, const WalkStates& states, const LeastRest& rest,
            Work& work);
 
   /// J of the cheapest way from the start over a state to a goal; infinite if there is
@@ -54,7 +54,7 @@ class WalkWays {
 
   WalkLattice& lattice_;
   const WalkStates& states_;
-  const WalkRest& rest_;
+  const LeastRest& rest_;
   Work& work_;
   std::vector<double> costs_;    // by state
   std::vector<WalkStep> steps_;  // that come there last

@@ -56,6 +56,8 @@ Found search_random(Scene scene, const Vec2& low, const Vec2& high, int runs) {
     }
     EXPECT_NEAR(turn, goal_place.theta[answer->angle] - start.theta, 1e-9);
     EXPECT_TRUE(chain_passes(search, chain, start.theta, work));
+    EXPECT_GE(answer->least, 1.0);
+    EXPECT_LE(answer->least, chain.cost + 1e-5);
   }
   return found;
 }

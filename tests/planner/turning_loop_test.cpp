@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "planner/walk_rest.h"
 #include "tests/planner/random_search.h"
 
 namespace prehensile {
@@ -18,7 +19,7 @@ struct Case : testing::RandomLattice {
   explicit Case(std::uint64_t index)
       : RandomLattice(index),
         states(lattice, contacts),
-        rest(lattice, contacts, limits, work) {}
+        rest(rest_of_walks(lattice, contacts, limits, work)) {}
 
   const WalkEdge& edge(const WalkStep& step) {
     return lattice.edges_from(step.node, work)[step.edge];
@@ -56,7 +57,7 @@ struct Case : testing::RandomLattice {
   }
 
   WalkStates states;
-  WalkRest rest;
+  LeastRest rest;
 };
 
 /// It leads back to where it begins, turns as it says, and no loop turns more for its

@@ -22,7 +22,7 @@ TEST(WalkGap, IsNothingWhereAWalkLeadsToAGoal) {
   int gaps = 0;
   for (std::uint64_t i = 0; i < 24; ++i) {
     RandomLattice c(i);
-    const WalkRest rest(c.lattice, c.contacts, c.limits, c.work);
+    const LeastRest rest = rest_of_walks(c.lattice, c.contacts, c.limits, c.work);
     const auto gap = walk_gap(c.lattice, c.limits, c.work);
     ASSERT_TRUE(gap);
     EXPECT_NEAR(gap->spacings * c.lattice.spacing(), (gap->from - gap->to).norm(), 1e-12);

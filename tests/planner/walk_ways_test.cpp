@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "planner/walk_rest.h"
 #include "tests/planner/random_search.h"
 
 namespace prehensile {
@@ -16,7 +17,7 @@ struct Case : testing::RandomLattice {
   explicit Case(std::uint64_t index)
       : RandomLattice(index),
         states(lattice, contacts),
-        rest(lattice, contacts, limits, work),
+        rest(rest_of_walks(lattice, contacts, limits, work)),
         ways(lattice, states, rest, work) {}
 
   /// J of steps from a state, and the state after them; they have to be connected.
@@ -34,7 +35,7 @@ struct Case : testing::RandomLattice {
   }
 
   WalkStates states;
-  WalkRest rest;
+  LeastRest rest;
   WalkWays ways;
 };
 

@@ -3,7 +3,9 @@
 ///
 /// Sets: `published`, 50 regrasps each of a square and a T; `ranges`, random ones from
 /// the same ranges, and `wide`, any start and goal at any angle, with and without
-/// gravity; `constructed`, 100 each of boxes, Ts and cans, feasible by construction. Our
+/// gravity; `constructed`, 100 each of boxes, Ts and cans, feasible by construction;
+/// `random`, random scenes of boxes, Ts and polygons with 1 to 6 line pushers or 2 to 4
+/// points, whose goals random pushes made, and `random_goals`, with goals anywhere. Our
 /// own planner runs with its default budget, once per problem: it draws no random
 /// numbers. The others run with a time limit, once per seed. `search_s` is the search
 /// alone, `total_s` all of plan_regrasp: proofs, search, polish, exact check, bound. A
@@ -27,6 +29,7 @@
 #include "primitives/uncertainty.h"
 #include "problems/pad_shapes.h"
 #include "problems/published_regrasps.h"
+#include "problems/random_fixtures.h"
 #include "problems/random_regrasps.h"
 
 namespace prehensile::benchmarks {
@@ -101,8 +104,41 @@ std::vector<Problem> constructed_problems(int count) {
   return problems;
 }
 
+/// 100 of each kind, as in benchmarks/suites/nominal.yaml.
+std::vector<Problem> random_scenes(GoalsFrom goals, int count) {
+  struct Kind {
+    const char* name;
+    FixtureObject object;
+    FixturePushers pushers;
+    Range pusher_count;
+  };
+  const auto lines = FixturePushers::kLines;
+  const auto points = FixturePushers::kPoints;
+  std::vector<Problem> problems;
+  for (const Kind& kind :
+       {Kind{"box", FixtureObject::kBox, lines, {2.0, 4.0}},
+        Kind{"T", FixtureObject::kTee, lines, {2.0, 4.0}},
+        Kind{"convex", FixtureObject::kConvex, lines, {1.0, 6.0}},
+        Kind{"concave", FixtureObject::kConcave, lines, {1.0, 6.0}},
+        Kind{"box, points", FixtureObject::kBox, points, {2.0, 4.0}},
+        Kind{"concave, points", FixtureObject::kConcave, points, {2.0, 4.0}}}) {
+    const FixtureRange range{.object = kind.object,
+                             .pushers = kind.pushers,
+                             .count = kind.pusher_count,
+                             .goals = goals};
+    for (int i = 0; i < count; ++i) {
+      const auto drawn = random_fixture(range, kSeed, static_cast<std::uint64_t>(i));
+      if (!drawn) continue;
+      problems.push_back({kind.name, drawn->scene});
+      problems.back().scene.name = std::string(kind.name) + " " + std::to_string(i + 1);
+    }
+  }
+  return problems;
+}
+
 bool is_set(const std::string& set) {
-  return set == "published" || set == "ranges" || set == "wide" || set == "constructed";
+  return set == "published" || set == "ranges" || set == "wide" || set == "constructed" ||
+         set == "random" || set == "random_goals";
 }
 
 /// The angle of the goal as a number, no farther from the start than half a turn.
@@ -120,6 +156,10 @@ std::vector<Problem> problems_of_set(const Options& options) {
     return published_problems(std::min(count(kPublishedRegrasps), kPublishedRegrasps));
   }
   if (options.set == "constructed") return constructed_problems(count(kConstructed));
+  if (options.set == "random") return random_scenes(GoalsFrom::kPushes, count(kRandom));
+  if (options.set == "random_goals") {
+    return random_scenes(GoalsFrom::kRandom, count(kRandom));
+  }
   const bool wide = options.set == "wide";
   return random_problems(wide ? RegraspRange::kWide : RegraspRange::kPublished,
                          count(kRandom));
@@ -295,7 +335,8 @@ int run(int count, char** arguments) {
   const std::vector<std::string> planners = wanted_planners(options);
   if (!readable || planners.empty()) {
     std::fputs(
-        "usage: bench_planner [--quick] [--set published|ranges|wide|constructed]\n"
+        "usage: bench_planner [--quick] [--set published|ranges|wide|constructed|random|"
+        "random_goals]\n"
         "                     [--planner NAME] [--plans robust|nominal|weightless]\n"
         "                     [--theta angle|number]\n"
         "                     [--pads disc|soft|1:1|1:2|1:4|line|half_disc]\n"

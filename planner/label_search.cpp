@@ -15,11 +15,15 @@
 namespace prehensile {
 namespace {
 
-constexpr std::size_t kMostLabels = 30'000;            // without a plan
-constexpr std::size_t kMostLabelsBeyondPlan = 1000;    // in search of a better one,
-constexpr std::size_t kMostLabelsToImprove = 200'000;  // and for as long as it may take
-constexpr int kMostNodesAhead = 500;                   // all of whose edges are found
-constexpr double kRounding = 1e-9;                     // [m]
+/// Labels of a search for a first plan, and with a margin, where there often is none; in
+/// search of a better one, and for as long as it may take.
+constexpr std::size_t kMostLabels = 30'000;
+constexpr std::size_t kMostLabelsWithMargin = 12'000;
+constexpr std::size_t kMostLabelsBeyondPlan = 1000;
+constexpr std::size_t kMostLabelsToImprove = 200'000;
+
+constexpr int kMostNodesAhead = 500;  // all of whose edges are found
+constexpr double kRounding = 1e-9;    // [m]
 
 /// What is still to be paid counts so many times where the next label is chosen: that
 /// finds a plan soon, and what cannot be cheaper than it is left out from then on.
@@ -73,9 +77,7 @@ class LabelSearch {
     least_ = estimate(begin);
     if (least_ >= to_beat_) return std::nullopt;
     push(begin, least_);
-    const std::size_t most = limits_.improves()     ? kMostLabelsToImprove
-                             : std::isinf(to_beat_) ? kMostLabels
-                                                    : kMostLabelsBeyondPlan;
+    const std::size_t most = most_labels();
     while (!queue_.empty() && !limits_.reached() && labels_.size() < most &&
            checks_ < kMostChecks) {
       const QueueEntry next = queue_.top();
@@ -88,6 +90,12 @@ class LabelSearch {
   }
 
  private:
+  std::size_t most_labels() const {
+    if (limits_.improves()) return kMostLabelsToImprove;
+    if (!std::isinf(to_beat_)) return kMostLabelsBeyondPlan;
+    return search_.margin.is_none() ? kMostLabels : kMostLabelsWithMargin;
+  }
+
   /// By the angles of a place, which are whole turns apart: what the goals ask for.
   void find_wanted() {
     wanted_.fill({1.0, 0.0});

@@ -17,9 +17,8 @@ struct Fineness {
 };
 constexpr double kNoPlan = std::numeric_limits<double>::infinity();
 constexpr Fineness kCoarse = {200, 12};
-constexpr Fineness kFine = {800, 20};  // in search of better plans
-constexpr Fineness kFinest = {3000, 40};
-constexpr Fineness kFew = {90, 7};  // the first where plans of two pushes fail
+constexpr Fineness kFine = {500, 14};  // in search of better plans
+constexpr Fineness kFew = {90, 7};     // the first where plans of two pushes fail
 constexpr Fineness kMedium = {140, 7};
 constexpr Fineness kMore = {170, 7};
 constexpr Fineness kSparse = {50, 7};  // for rotations of the real pads, which cost most
@@ -90,9 +89,8 @@ class ChainSearch {
     if (envelope && !is_enough() && !limits_.reached()) {
       try_labels({search_, true, envelope}, kSparse, to_beat);
     }
-    for (const Fineness& fineness : {kFine, kFinest}) {
-      if (!limits_.improves() || is_enough() || limits_.reached()) break;
-      try_labels(steering_.back(), fineness, to_beat);
+    if (limits_.improves() && !is_enough() && !limits_.reached()) {
+      try_labels(steering_.back(), kFine, to_beat);
     }
     return found_;
   }

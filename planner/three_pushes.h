@@ -13,8 +13,7 @@ namespace prehensile {
 
 /// Replaces a plan that may be far from optimal by up to three pushes of a line, if some
 /// cost less: to the goal, or without a margin also beside it, within its tolerances,
-/// where that saves a tenth. Whether it did. Not of cans, nor over soft points, whose
-/// friction the stages before know.
+/// where that saves a tenth. Whether it did. Not of cans.
 bool improve_by_three_pushes(const SearchModel& search, const Limits& limits, Work& work,
                              Plan& plan);
 

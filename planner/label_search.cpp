@@ -23,14 +23,15 @@ constexpr std::size_t kMostLabelsBeyondPlan = 1000;
 constexpr std::size_t kMostLabelsToImprove = 200'000;
 
 constexpr int kMostNodesAhead = 500;  // all of whose edges are found
-constexpr double kRounding = 1e-9;    // [m]
+constexpr double kRounding = 1e-7;    // [m] of costs
 
-/// What is still to be paid counts so many times where the next label is chosen: that
-/// finds a plan soon, and what cannot be cheaper than it is left out from then on.
+/// What is known to be paid still counts so many times where the next label is chosen:
+/// that finds a plan soon, and what cannot be cheaper than it is left out from then on.
 constexpr double kHaste = 5.0;
 
 /// [J] that a way to a node must save to be looked at besides others.
 constexpr float kLeastGain = 0.05F;
+constexpr float kLeastGainOfSlowLegs = 0.25F;  // without a look ahead
 
 constexpr int kMostChecks = 2000;  // of whole chains with the real pad
 
@@ -61,6 +62,8 @@ class LabelSearch {
         limits_(limits),
         work_(work),
         graph_(steering, search, nodes, start, goals, work),
+        looks_ahead_(graph_.goal() <= kMostNodesAhead &&
+                     (!steering.real_pads || steering.envelope)),
         L_(placement_length(*search.model)),
         buckets_(graph_.goal() * graph_.contacts(), search.model->c, L_) {
     const TurnWindow window = turns_from(search, start.theta);
@@ -72,7 +75,7 @@ class LabelSearch {
   }
 
   std::optional<FoundChain> run() {
-    if (graph_.goal() <= kMostNodesAhead) look_ahead();
+    if (looks_ahead_) look_ahead();
     const Label begin{.node = graph_.start()};
     least_ = estimate(begin);
     if (least_ >= to_beat_) return std::nullopt;
@@ -176,8 +179,8 @@ class LabelSearch {
 
   void push(const Label& label, double least) {
     const double paid = cost(label);
-    queue_.push(
-        {paid + kHaste * (least - paid), least, static_cast<int>(labels_.size())});
+    const double haste = looks_ahead_ ? kHaste : 1.0;
+    queue_.push({paid + haste * (least - paid), least, static_cast<int>(labels_.size())});
     labels_.push_back(label);
   }
 
@@ -194,7 +197,8 @@ class LabelSearch {
   void offer(const Label& label) {
     const double least = estimate(label);
     if (least >= to_beat_) return;
-    if (buckets_.offer(state_of(label), label.paid, label.placements, kLeastGain,
+    if (buckets_.offer(state_of(label), label.paid, label.placements,
+                       looks_ahead_ ? kLeastGain : kLeastGainOfSlowLegs,
                        static_cast<int>(labels_.size()))) {
       push(label, least);
     }
@@ -251,8 +255,13 @@ class LabelSearch {
     if (!make_chain(index, last)) return;
     const double dtheta = goals_.places[place].theta[angle] - start_.theta;
     ++checks_;
-    const NarrowedChain result =
-        narrow_until_it_sticks(search_, start_.theta, dtheta, to_beat_, chain_, work_);
+    NarrowedChain result;
+    if (looks_ahead_) {
+      result =
+          narrow_until_it_sticks(search_, start_.theta, dtheta, to_beat_, chain_, work_);
+    } else {
+      result.sticks = make_chain_stick(search_, start_.theta, dtheta, chain_, work_);
+    }
     learn(index, place, result);
     if (!result.sticks || chain_.cost >= to_beat_) return;
     best_ = {chain_, place, angle, least_};
@@ -293,6 +302,7 @@ class LabelSearch {
   const Limits& limits_;
   Work& work_;
   LegGraph graph_;
+  bool looks_ahead_;  // not where a leg takes tenths of a millisecond, nor over many
   double L_;
   TurnBuckets buckets_;
   TurnWindow ways_;                   // limits of c dtheta after every leg [m]

@@ -40,7 +40,7 @@ class TurnAhead {
   using Rests = std::array<float, kPrices>;
 
   const Rests& rests(int node, int contact) const {
-    return rests_[static_cast<std::size_t>(node * (contacts_ + 1) + contact + 1)];
+    return rests_[static_cast<std::size_t>(node) * (contacts_ + 1) + contact + 1];
   }
 
   int contacts_;

@@ -17,8 +17,11 @@ float TurnBuckets::bucket_at(float turn) const {
 }
 
 std::pair<int, int> TurnBuckets::range(const TurnCost& paid) const {
-  return {static_cast<int>(bucket_at(paid.low()) + 0.5F),
-          static_cast<int>(bucket_at(paid.high()) + 0.5F)};
+  const auto bucket_of = [&](float turn) {
+    const float from_first = turn * buckets_per_metre_ + kBuckets / 2.0F;
+    return static_cast<int>(std::clamp(from_first, 0.0F, kBuckets - 1.0F));
+  };
+  return {bucket_of(paid.low()), bucket_of(paid.high())};
 }
 
 /// In the middle of each bucket, between the points of the way's cost; most of a search

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "planner/walk_lattice.h"
 #include "planner/least_rest.h"
+#include "planner/walk_lattice.h"
 
 namespace prehensile {
 

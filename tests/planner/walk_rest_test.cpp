@@ -15,7 +15,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// A lattice over a random problem, and what its walks cost.
 struct Case : testing::RandomLattice {
   explicit Case(std::uint64_t index, std::int64_t budget = 5'000'000)
-      : RandomLattice(index, budget), rest(rest_of_walks(lattice, contacts, limits, work)) {}
+      : RandomLattice(index, budget),
+        rest(rest_of_walks(lattice, contacts, limits, work)) {}
 
   /// By the edges of a node.
   double least_over_edges(int node, int contact) {

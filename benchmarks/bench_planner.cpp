@@ -104,7 +104,7 @@ std::vector<Problem> constructed_problems(int count) {
   return problems;
 }
 
-/// 100 of each kind, as in benchmarks/suites/nominal.yaml.
+/// Of each kind as many; goals are where the caller says.
 std::vector<Problem> random_scenes(GoalsFrom goals, int count) {
   struct Kind {
     const char* name;

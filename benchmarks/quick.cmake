@@ -1,6 +1,6 @@
-# Runs PROGRAM --quick into FILE and counts its lines: a header and RUNS runs.
+# Runs PROGRAM --quick ARGUMENTS into FILE and counts its lines: a header and RUNS runs.
 file(REMOVE ${FILE})
-execute_process(COMMAND ${PROGRAM} --quick -o ${FILE}
+execute_process(COMMAND ${PROGRAM} --quick ${ARGUMENTS} -o ${FILE}
   RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE summary)
 if(NOT result EQUAL 0)
   message(FATAL_ERROR "${PROGRAM} ended with ${result}:\n${summary}")

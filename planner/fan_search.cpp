@@ -23,6 +23,7 @@ constexpr int kBranchNodes = 200;      // lattice of places where legs may begin
 constexpr int kMostBranches = 8;
 
 using Moves = std::vector<Move>;
+
 bool limits_theta(const Scene& scene) {
   return scene.limits && (scene.limits->theta_low || scene.limits->theta_high);
 }

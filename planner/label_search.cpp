@@ -31,7 +31,7 @@ constexpr double kHaste = 5.0;
 
 /// [J] that a way to a node must save to be looked at besides others.
 constexpr float kLeastGain = 0.05F;
-constexpr float kLeastGainOfSlowLegs = 0.25F;  // without a look ahead
+constexpr float kLeastGainOfSlowLegs = 0.25F;
 
 constexpr int kMostChecks = 2000;  // of whole chains with the real pad
 
@@ -62,8 +62,8 @@ class LabelSearch {
         limits_(limits),
         work_(work),
         graph_(steering, search, nodes, start, goals, work),
-        looks_ahead_(graph_.goal() <= kMostNodesAhead &&
-                     (!steering.real_pads || steering.envelope)),
+        has_slow_legs_(steering.real_pads && !steering.envelope),
+        looks_ahead_(graph_.goal() <= kMostNodesAhead && !has_slow_legs_),
         L_(placement_length(*search.model)),
         buckets_(graph_.goal() * graph_.contacts(), search.model->c, L_) {
     const TurnWindow window = turns_from(search, start.theta);
@@ -198,7 +198,7 @@ class LabelSearch {
     const double least = estimate(label);
     if (least >= to_beat_) return;
     if (buckets_.offer(state_of(label), label.paid, label.placements,
-                       looks_ahead_ ? kLeastGain : kLeastGainOfSlowLegs,
+                       has_slow_legs_ ? kLeastGainOfSlowLegs : kLeastGain,
                        static_cast<int>(labels_.size()))) {
       push(label, least);
     }
@@ -256,11 +256,11 @@ class LabelSearch {
     const double dtheta = goals_.places[place].theta[angle] - start_.theta;
     ++checks_;
     NarrowedChain result;
-    if (looks_ahead_) {
+    if (has_slow_legs_) {
+      result.sticks = make_chain_stick(search_, start_.theta, dtheta, chain_, work_);
+    } else {
       result =
           narrow_until_it_sticks(search_, start_.theta, dtheta, to_beat_, chain_, work_);
-    } else {
-      result.sticks = make_chain_stick(search_, start_.theta, dtheta, chain_, work_);
     }
     learn(index, place, result);
     if (!result.sticks || chain_.cost >= to_beat_) return;
@@ -302,7 +302,8 @@ class LabelSearch {
   const Limits& limits_;
   Work& work_;
   LegGraph graph_;
-  bool looks_ahead_;  // not where a leg takes tenths of a millisecond, nor over many
+  bool has_slow_legs_;  // those of cans, which take long to make and to check
+  bool looks_ahead_;
   double L_;
   TurnBuckets buckets_;
   TurnWindow ways_;                   // limits of c dtheta after every leg [m]

@@ -22,6 +22,7 @@ using PushesTo = std::vector<std::vector<PushTo>>;
 /// way. A push by another contact than the one before is one placement more.
 class LeastRest {
  public:
+  /// Infinite where no way leads to an end. Takes as long as sorting the pushes.
   LeastRest(const PushesTo& pushes, int contacts, std::span<const int> ends);
 
   /// Of what has come to a node by a push of this contact; negative: by none.

@@ -75,9 +75,9 @@ class LegGraph {
   std::vector<std::optional<std::vector<LegEdge>>> rows_;       // by node and contact
   std::vector<std::optional<bool>> usable_;                     // likewise
   std::vector<std::optional<std::vector<LastLeg>>> last_legs_;  // by node
-  std::map<std::array<int, 3>, KappaSet>
-      kappas_;                      // of narrowed legs, by contact and nodes
-  std::vector<Narrowed> narrowed_;  // of these, not in edges yet
+  using KappasOfLegs = std::map<std::array<int, 3>, KappaSet>;  // by contact and nodes
+  KappasOfLegs kappas_;                                         // of narrowed legs
+  std::vector<Narrowed> narrowed_;                              // not in edges yet
 };
 
 }  // namespace prehensile

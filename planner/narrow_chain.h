@@ -2,7 +2,6 @@
 #pragma once
 
 #include <bitset>
-#include <cstdint>
 
 #include "planner/chain.h"
 

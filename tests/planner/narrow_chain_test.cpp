@@ -33,15 +33,24 @@ std::optional<Chain> random_chain(const SearchModel& search, Random& random, Wor
   return chain;
 }
 
-/// The range of its rotations [m of c dtheta].
-KappaSet::Interval turns_of(const Chain& chain) {
-  KappaSet::Interval turns;
+/// This share of the range of its rotations [rad].
+double turn_at(double share, const SearchModel& search, const Chain& chain) {
+  double low = 0.0;
+  double high = 0.0;
   for (int k = 0; k < chain.count; ++k) {
     const Leg& leg = chain.legs[k];
-    turns.lo += leg.length * leg.kappas.intervals[0].lo;
-    turns.hi += leg.length * leg.kappas.intervals[leg.kappas.count - 1].hi;
+    low += leg.length * leg.kappas.intervals[0].lo;
+    high += leg.length * leg.kappas.intervals[leg.kappas.count - 1].hi;
   }
-  return turns;
+  return (low + share * (high - low)) / search.model->c;
+}
+
+double width_of(const KappaSet& kappas) {
+  double width = 0.0;
+  for (int i = 0; i < kappas.count; ++i) {
+    width += kappas.intervals[i].hi - kappas.intervals[i].lo;
+  }
+  return width;
 }
 
 TEST(NarrowChain, FindsKappasThatStick) {
@@ -54,9 +63,8 @@ TEST(NarrowChain, FindsKappasThatStick) {
   for (int i = 0; i < 300; ++i) {
     auto chain = random_chain(search, random, work);
     if (!chain) continue;
-    const auto [lo, hi] = turns_of(*chain);
     const double share = random.chance(0.5) ? random.in(0.9, 1.0) : random.in(0.0, 0.1);
-    const double dtheta = (lo + share * (hi - lo)) / model.c;
+    const double dtheta = turn_at(share, search, *chain);
     const Chain before = *chain;
     if (!solve_chain(search, dtheta, *chain)) continue;
     const bool passed = chain_passes(search, *chain, 0.3, work);
@@ -70,21 +78,12 @@ TEST(NarrowChain, FindsKappasThatStick) {
     for (int k = 0; k < chain->count; ++k) {
       const KappaSet& now = chain->legs[k].kappas;
       const KappaSet& then = before.legs[k].kappas;
-      double width = 0.0;
       for (int j = 0; j < now.count; ++j) {
         EXPECT_TRUE(then.contains(now.intervals[j].lo));
         EXPECT_TRUE(then.contains(now.intervals[j].hi));
-        width += now.intervals[j].hi - now.intervals[j].lo;
       }
-      double width_before = 0.0;
-      for (int j = 0; j < then.count; ++j) {
-        width_before += then.intervals[j].hi - then.intervals[j].lo;
-      }
-      if (result.narrowed[k]) {
-        EXPECT_TRUE(width < width_before || now.count < then.count);
-      } else {
-        EXPECT_EQ(width, width_before);
-      }
+      const bool has_lost = width_of(now) < width_of(then) || now.count < then.count;
+      EXPECT_EQ(has_lost, result.narrowed[k]);
     }
     if (!result.sticks) continue;
     mended += passed ? 0 : 1;
@@ -106,8 +105,7 @@ TEST(NarrowChain, LooksAtNothingThatCostsTooMuch) {
   for (int i = 0; i < 50; ++i) {
     auto chain = random_chain(search, random, work);
     if (!chain) continue;
-    const auto [lo, hi] = turns_of(*chain);
-    const double dtheta = 0.5 * (lo + hi) / model.c;
+    const double dtheta = turn_at(0.5, search, *chain);
     if (!solve_chain(search, dtheta, *chain)) continue;
     ++chains;
     const double cost = chain->cost;

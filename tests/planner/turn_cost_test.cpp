@@ -28,12 +28,7 @@ struct Case {
       leg.kappas.intervals[0] = {low, low + (random.chance(0.2) ? 0.0 : random.in(0, 4))};
       low_turn += leg.length * leg.kappas.intervals[0].lo;
       high_turn += leg.length * leg.kappas.intervals[0].hi;
-      const TurnCost push = turn_cost(leg.length, leg.kappas.intervals[0]);
-      if (k == 0) {
-        cost = push;
-      } else {
-        cost += push;
-      }
+      cost += turn_cost(leg.length, leg.kappas.intervals[0]);
     }
   }
 

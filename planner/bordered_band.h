@@ -2,7 +2,6 @@
 /// one variable on all. Internal to the planner.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -19,71 +18,73 @@ class BorderedBand {
 
   void set_zero() {
     for (auto& row : band_) row.fill(0.0);
-    border_.setZero();
+    border_.fill(0.0);
+    inverse_.fill(0.0);
   }
 
   /// Only of the lower triangle.
   void add(int i, int j, double value) {
     if (i < j) return;
     if (i == kLast) {
-      border_[j] += value;
+      border_[kWidth + j] += value;
     } else {
-      band_[i][i - j] += value;
+      band_[kWidth + i][i - j] += value;
     }
   }
 
   /// Replaces the matrix by its factors; false if it is not positive definite.
   bool factor() {
-    for (int i = 0; i < kLast; ++i) {
-      for (int d = std::min(i, kWidth); d >= 0; --d) {
-        const int j = i - d;
-        double sum = band_[i][d];
-        for (int k = std::max({0, i - kWidth, j - kWidth}); k < j; ++k) {
-          sum -= band_[i][i - k] * band_[j][j - k];
-        }
-        if (d > 0) {
-          band_[i][d] = sum / band_[j][0];
-        } else if (sum > 0.0) {
-          band_[i][0] = std::sqrt(sum);
-        } else {
-          return false;
-        }
+    double corner = border_[kWidth + kLast];
+    for (int i = kWidth; i < kWidth + kLast; ++i) {
+      Row& row = band_[i];
+      for (int d = kWidth; d > 0; --d) {
+        const Row& above = band_[i - d];
+        for (int k = 1; k <= kWidth - d; ++k) row[d] -= row[d + k] * above[k];
+        row[d] *= inverse_[i - d];
       }
-    }
-    double corner = border_[kLast];
-    for (int i = 0; i < kLast; ++i) {
-      for (int k = std::max(0, i - kWidth); k < i; ++k) {
-        border_[i] -= border_[k] * band_[i][i - k];
+      double sum = row[0];
+      for (int d = 1; d <= kWidth; ++d) {
+        sum -= row[d] * row[d];
+        border_[i] -= row[d] * border_[i - d];
       }
-      border_[i] /= band_[i][0];
+      if (!(sum > 0.0)) return false;
+      inverse_[i] = 1.0 / std::sqrt(sum);
+      border_[i] *= inverse_[i];
       corner -= border_[i] * border_[i];
     }
-    border_[kLast] = std::sqrt(std::max(0.0, corner));
-    return corner > 0.0;
+    if (!(corner > 0.0)) return false;
+    inverse_[kWidth + kLast] = 1.0 / std::sqrt(corner);
+    return true;
   }
 
-  Vector solve(Vector x) const {
-    double last = x[kLast];
-    for (int i = 0; i < kLast; ++i) {
-      for (int k = std::max(0, i - kWidth); k < i; ++k) x[i] -= x[k] * band_[i][i - k];
-      x[i] /= band_[i][0];
+  Vector solve(const Vector& b) const {
+    std::array<double, kWidth + kLast + kWidth> x{};
+    double last = b[kLast];
+    for (int i = kWidth; i < kWidth + kLast; ++i) {
+      x[i] = b[i - kWidth];
+      for (int d = 1; d <= kWidth; ++d) x[i] -= band_[i][d] * x[i - d];
+      x[i] *= inverse_[i];
       last -= border_[i] * x[i];
     }
-    x[kLast] = last / (border_[kLast] * border_[kLast]);
-    for (int i = kLast - 1; i >= 0; --i) {
-      x[i] -= border_[i] * x[kLast];
-      for (int k = i + 1; k <= std::min(kLast - 1, i + kWidth); ++k) {
-        x[i] -= x[k] * band_[k][k - i];
-      }
-      x[i] /= band_[i][0];
+    Vector solution;
+    last *= inverse_[kWidth + kLast] * inverse_[kWidth + kLast];
+    solution[kLast] = last;
+    for (int i = kWidth + kLast - 1; i >= kWidth; --i) {
+      x[i] -= border_[i] * last;
+      x[i] *= inverse_[i];
+      for (int d = 1; d <= kWidth; ++d) x[i - d] -= band_[i][d] * x[i];
+      solution[i - kWidth] = x[i];
     }
-    return x;
+    return solution;
   }
 
  private:
   static constexpr int kLast = kSize - 1;
-  std::array<std::array<double, kWidth + 1>, kLast> band_;
-  Vector border_;
+
+  // kWidth places of zeros come first.
+  using Row = std::array<double, kWidth + 1>;
+  std::array<Row, kWidth + kLast> band_;
+  std::array<double, kWidth + kSize> border_, inverse_;  // of the diagonal of the factor
 };
 
 }  // namespace prehensile

@@ -232,27 +232,23 @@ bool may_be_met_in(const std::vector<FrictionBox>& tree, const Demands& demands)
 /// The least cost of a box that the demands may be met in, from the cheaper branch on.
 /// `cost(box)` is no more than that of any box within.
 template <class Cost>
-double least_in_tree(const std::vector<FrictionBox>& tree, const Demands& demands,
-                     const Cost& cost) {
-  struct Branch {
-    double cost;
-    std::size_t node;
-  };
-  const auto branch_to = [&](std::size_t node) -> Branch {
+LeastTravel least_in_tree(const std::vector<FrictionBox>& tree, const Demands& demands,
+                          const Cost& cost) {
+  const auto branch_to = [&](std::size_t node) -> LeastTravel {
     return {cost(tree[node]), node};
   };
-  double least = INFINITY;
-  Pile<Branch> open;
+  LeastTravel least{.cost = INFINITY};
+  Pile<LeastTravel> open;
   open.push(branch_to(1));
   while (!open.empty()) {
-    const Branch branch = open.pop();
-    if (branch.cost >= least || !demands.may_be_met(tree[branch.node])) continue;
-    if (is_leaf(tree, branch.node)) {
-      least = branch.cost;
+    const LeastTravel branch = open.pop();
+    if (branch.cost >= least.cost || !demands.may_be_met(tree[branch.box])) continue;
+    if (is_leaf(tree, branch.box)) {
+      least = branch;
       continue;
     }
-    const Branch one = branch_to(2 * branch.node);
-    const Branch other = branch_to(2 * branch.node + 1);
+    const LeastTravel one = branch_to(2 * branch.box);
+    const LeastTravel other = branch_to(2 * branch.box + 1);
     open.push(one.cost < other.cost ? other : one);
     open.push(one.cost < other.cost ? one : other);
   }
@@ -288,12 +284,14 @@ bool LocalLaw::may_move(int contact, const PlaceSpan& places,
          may_be_met_in(tree_, {model_, pushed, weightless_, ends, directions});
 }
 
-double LocalLaw::least_travel(int contact, std::span<const Vec2> corners,
-                              const DirectionSpan& directions,
-                              double share) const noexcept {
+LeastTravel LocalLaw::least_travel(int contact, std::span<const Vec2> corners,
+                                   const DirectionSpan& directions, double share,
+                                   const LeastTravel& before) const noexcept {
   const PushContact& pushed = model_.contacts[contact];
-  if (!is_known() || !is_in_cone(pushed, directions)) return INFINITY;
-  return least_in_tree(tree_, {model_, pushed, weightless_, corners, directions},
+  if (!is_known() || !is_in_cone(pushed, directions)) return {.cost = INFINITY};
+  const Demands demands(model_, pushed, weightless_, corners, directions);
+  if (before.box > 0 && demands.may_be_met(tree_[before.box])) return before;
+  return least_in_tree(tree_, demands,
                        [share](const FrictionBox& box) { return least_in(box, share); });
 }
 
@@ -302,7 +300,8 @@ double LocalLaw::most_turn(int contact, std::span<const Vec2> corners,
   const PushContact& pushed = model_.contacts[contact];
   if (!is_known() || !is_in_cone(pushed, directions)) return -INFINITY;
   return -least_in_tree(tree_, {model_, pushed, weightless_, corners, directions},
-                        [sense](const FrictionBox& box) { return -most_in(box, sense); });
+                        [sense](const FrictionBox& box) { return -most_in(box, sense); })
+              .cost;
 }
 
 }  // namespace prehensile

@@ -27,6 +27,13 @@ struct DirectionSpan {
   double half_angle = 0.0;
 };
 
+/// The least (dT - share c dtheta) / |dp| of some motions, and the box of friction that
+/// it takes.
+struct LeastTravel {
+  double cost = 0.0;    ///< infinity if there are none
+  std::size_t box = 0;  ///< 0: none
+};
+
 class LocalLaw {
  public:
   /// Known of pads that are whole wherever they are (pad_section.h), and of soft points.
@@ -46,10 +53,12 @@ class LocalLaw {
   bool may_move(int contact, const PlaceSpan& places,
                 const DirectionSpan& directions) const noexcept;
 
-  /// The least (dT - share c dtheta) / |dp| of such motions at places with these corners,
-  /// a convex polygon; infinity if there are none. `share` in (-1, 1). No heap.
-  double least_travel(int contact, std::span<const Vec2> corners,
-                      const DirectionSpan& directions, double share) const noexcept;
+  /// Of such motions at places with these corners, a convex polygon. `share` in (-1, 1).
+  /// `before`: of places and directions that these are some of; where its box still
+  /// serves, nothing else is looked at. No heap.
+  LeastTravel least_travel(int contact, std::span<const Vec2> corners,
+                           const DirectionSpan& directions, double share,
+                           const LeastTravel& before = {}) const noexcept;
 
   /// The greatest sense c dtheta / |dp| of such motions; -infinity if there are none,
   /// infinity if the object may turn about the finger axis. `sense` is 1 or -1. No heap.

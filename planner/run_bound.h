@@ -15,8 +15,8 @@
 /// and `beside` the least that a path can be beside the face there.
 /// All of them are convex where tau may be greater than the length; so that gravity may
 /// be used by turning to and fro, as it may in fact. The bound is the value of the
-/// Lagrange dual at multipliers from a barrier method (Boyd and Vandenberghe, Convex
-/// Optimization, 2004, 5.1 and 11.3), which holds whatever the multipliers are.
+/// Lagrange dual (Boyd and Vandenberghe, Convex Optimization, 2004, 5.1) at multipliers
+/// from an interior-point method (run_interior.h), which holds whatever they are.
 #pragma once
 
 #include <array>
@@ -51,10 +51,9 @@ struct RunQuestion {
   double cap = 0.0;  ///< [m] travel of interest: more need not be proved
   /// Paths that are straight between the depths only: E = 0.
   bool chords_only = false;
-  /// Of paths: down to this [m], or to 1e-4 of the cap, goes the weight of the barrier,
-  /// from 0.03 of the cap. Paths of heavier ones are longer, and keep farther from the
-  /// borders of the laws.
-  double last_weight = 0.0;
+  /// [m] > 0, of paths: the product of slack and multiplier of each law. Paths of greater
+  /// ones are longer, and keep farther from the borders of the laws.
+  double weight = 0.0;
 };
 
 /// A bound on the travel of every run from the start to the goal that is no longer than

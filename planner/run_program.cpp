@@ -50,7 +50,7 @@ double least_of_step(double s, double D, double a, double q, double most) {
   double x = 0.0;
   double slope = a;
   for (int i = 0; i < 30; ++i) {
-    const double r = std::hypot(D, x);
+    const double r = std::sqrt(D * D + x * x);
     slope = s * x / r + a + 2.0 * q * x;
     const double curvature = s * D * D / (r * r * r) + 2.0 * q;
     if (!(curvature > 0.0)) break;
@@ -59,8 +59,9 @@ double least_of_step(double s, double D, double a, double q, double most) {
     // Beyond the inflections of the slope whole steps overshoot.
     x = std::abs(next - x) > D ? x + std::copysign(D, next - x) : next;
   }
-  slope = s * x / std::hypot(D, x) + a + 2.0 * q * x;
-  const double value = s * std::hypot(D, x) + a * x + q * x * x;
+  const double r = std::sqrt(D * D + x * x);
+  slope = s * x / r + a + 2.0 * q * x;
+  const double value = s * r + a * x + q * x * x;
   return value - std::max(slope * (x + most), slope * (x - most));
 }
 

@@ -25,9 +25,9 @@ constexpr std::array<Inwards, 2> kInwards = {{{0.7, 0.0}, {1.5, 0.0}}};
 /// The same where the points themselves say how legs may turn.
 constexpr std::array<Inwards, 3> kInwardsOfPoints = {
     {{0.0, 0.0}, {0.7, 0.0}, {0.7, 0.12}}};
-/// Paths are near the borders of the laws first, and where that does not help farther
-/// from them: the weight of the program's barrier over L. Of lines: points are aimed
-/// anew.
+/// Slack times multiplier of the laws of a path, over its cap: near their borders first,
+/// and where that does not help farther from them. Of lines: points are aimed anew.
+constexpr double kInside = 2.4e-4;
 constexpr double kFartherIn = 2e-3;
 constexpr double kPerPush = 2e-3;  // of J, that one push less is worth
 constexpr double kLongest = 4.0;   // travel over L of plans looked for
@@ -120,7 +120,7 @@ class RunSearch {
     if (!near || law.mu <= 0.0 || is_behind(0) || is_behind(1)) return;
     const double before = to_beat_;
     const auto follow_all = [&](const Steering& steering, const Inwards& inwards,
-                                double last_weight = 0.0) {
+                                double weight = kInside) {
       RunLaws laws;
       laws.C = laws_.C;
       laws.reach = laws_.reach;
@@ -142,7 +142,7 @@ class RunSearch {
                      .turn_high = ends.turn + ends.half,
                      .cap = cap,
                      .chords_only = true,
-                     .last_weight = last_weight * search_.model->L},
+                     .weight = weight * cap},
                     path)) {
         return false;
       }

@@ -21,11 +21,13 @@ constexpr int kWays = 24;
 constexpr double kLeastAhead = 0.1;  // cosine of u and the straight way
 constexpr std::array kShares = {0.3, 0.6, 0.85, 0.97};
 
+/// `steps` of the branch and bound for each slab; `sampled` directions to either side.
 struct Fineness {
-  int slabs, steps;
+  int slabs, steps, sampled;
 };
-constexpr Fineness kCoarse{4, 40};
-constexpr Fineness kFine{12, 300};
+constexpr Fineness kCoarse{4, 40, 4};
+constexpr Fineness kFine{12, 300, 16};
+constexpr double kWidestSample = 0.45 * kPi;  // [rad] from u
 
 /// Where a slab is as wide as that of its width, over the slab's own, a sector of
 /// directions is as wide as half a turn.
@@ -82,63 +84,105 @@ class Ellipse {
   bool is_empty_;
 };
 
-/// The bound by slabs across u, for a share of the turn.
-double travel_along(const LocalLaw& law, const RunQuestion& run, const Ellipse& ellipse,
-                    const Vec2& u, double share, const Fineness& fineness) {
-  const double begin = u.dot(run.start) + kRounding;
-  const double end = u.dot(run.goal.centre) - run.goal.reach(u) - kRounding;
-  if (end <= begin) return 0.0;
-  const double width = (end - begin) / fineness.slabs;
-  double travel = share * run.c * (share > 0.0 ? run.turn_low : run.turn_high);
-  for (int i = 0; i < fineness.slabs && travel < run.cap; ++i) {
-    Slab slab{.u = u, .low = begin + i * width, .width = width};
-    const double high = slab.low + width;
-    const Extent inside =
-        extent_across(*run.outline, u, perp(u), slab.low - kRounding, high + kRounding);
-    const Extent reached = ellipse.across(u, slab.low, high);
-    slab.across = {std::max(inside.low, reached.low - kRounding),
-                   std::min(inside.high, reached.high + kRounding)};
-    const double extent = slab.across.high - slab.across.low;
-    travel += width * least_cost(law, slab,
-                                 {.first_contact = run.contact,
-                                  .end_contact = run.contact + 1,
-                                  .share = share,
-                                  .steps = fineness.steps,
-                                  .as_half_turn = kAsHalfTurn * extent});
+/// Slabs across u from the start to the goal, and a share of the turn.
+class Look {
+ public:
+  Look(const LocalLaw& law, const RunQuestion& run, const Vec2& u, double share)
+      : law_(law),
+        run_(run),
+        u_(u),
+        share_(share),
+        begin_(u.dot(run.start) + kRounding),
+        end_(u.dot(run.goal.centre) - run.goal.reach(u) - kRounding) {}
+
+  bool is_ahead() const { return end_ > begin_; }
+
+  /// The bound.
+  double travel(const Ellipse& ellipse, const Fineness& fineness) const {
+    const double width = (end_ - begin_) / fineness.slabs;
+    double travel = travel_of_turn();
+    for (int i = 0; i < fineness.slabs && travel < run_.cap; ++i) {
+      Slab slab{.u = u_, .low = begin_ + i * width, .width = width};
+      const double high = slab.low + width;
+      const Extent inside = extent_across(*run_.outline, u_, perp(u_),
+                                          slab.low - kRounding, high + kRounding);
+      const Extent reached = ellipse.across(u_, slab.low, high);
+      slab.across = {std::max(inside.low, reached.low - kRounding),
+                     std::min(inside.high, reached.high + kRounding)};
+      const double extent = slab.across.high - slab.across.low;
+      travel += width * least_cost(law_, slab,
+                                   {.first_contact = run_.contact,
+                                    .end_contact = run_.contact + 1,
+                                    .share = share_,
+                                    .steps = fineness.steps,
+                                    .as_half_turn = kAsHalfTurn * extent});
+    }
+    return travel;
   }
-  return travel;
-}
+
+  /// What it cannot exceed, by motions that stick on the straight way; infinity if none
+  /// of those that are looked at do.
+  double most_travel(const Fineness& fineness) const {
+    const double width = (end_ - begin_) / fineness.slabs;
+    double travel = travel_of_turn();
+    for (int i = 0; i < fineness.slabs && travel < kInfinity; ++i) {
+      travel += width * cost_at(begin_ + (i + 0.5) * width, fineness.sampled);
+    }
+    return travel;
+  }
+
+ private:
+  double travel_of_turn() const {
+    return share_ * run_.c * (share_ > 0.0 ? run_.turn_low : run_.turn_high);
+  }
+
+  double cost_at(double depth, int sampled) const {
+    const Vec2 way = run_.goal.centre - run_.start;
+    const double done = (depth - u_.dot(run_.start)) / u_.dot(way);
+    const std::array place = {Vec2(run_.start + done * way)};
+    double least = kInfinity;
+    for (int k = -sampled; k <= sampled; ++k) {
+      const double off = k * kWidestSample / sampled;
+      const DirectionSpan direction{rotated(off, u_), 0.0};
+      const double cost = law_.least_travel(run_.contact, place, direction, share_).cost;
+      least = std::min(least, cost / std::cos(off));
+    }
+    return least;
+  }
+
+  const LocalLaw& law_;
+  const RunQuestion& run_;
+  Vec2 u_;
+  double share_, begin_, end_;
+};
 
 }  // namespace
 
-double travel_across_slabs(const LocalLaw& law, const RunQuestion& run) {
+double travel_across_slabs(const LocalLaw& law, const RunQuestion& run, double known) {
   if (!law.is_known()) return 0.0;
   const double off_goal = run.goal.arc.norm() + run.goal.widest();
   const Ellipse ellipse(run.start, run.goal.centre, run.cap + off_goal + kRounding);
   if (ellipse.is_empty()) return run.cap;
   const double sense = run.turn_low + run.turn_high < 0.0 ? -1.0 : 1.0;
   double most = 0.0, best_angle = 0.0, best_share = 0.0;
-  const auto look = [&](double angle, double share) {
+  const auto look_at = [&](double angle, double share, const Fineness& fineness) {
     if (most >= run.cap || std::cos(angle) <= kLeastAhead) return;
-    const Vec2 u = rotated(angle, ellipse.axis());
-    const double travel = travel_along(law, run, ellipse, u, share, kCoarse);
+    const Look look(law, run, rotated(angle, ellipse.axis()), share);
+    if (!look.is_ahead() || look.most_travel(fineness) <= std::max(most, known)) return;
+    const double travel = look.travel(ellipse, fineness);
     if (travel <= most) return;
     most = travel;
     best_angle = angle;
     best_share = share;
   };
-  for (int i = 0; i < kWays; ++i) look(2.0 * kPi * i / kWays, 0.0);
+  for (int i = 0; i < kWays; ++i) look_at(2.0 * kPi * i / kWays, 0.0, kCoarse);
   for (const double share : kShares) {
     const double angle = best_angle;
     for (const int ways : {0, 1, -1, 2, -2}) {
-      look(angle + ways * 2.0 * kPi / kWays, sense * share);
+      look_at(angle + ways * 2.0 * kPi / kWays, sense * share, kCoarse);
     }
   }
-  if (most > 0.0 && most < run.cap) {
-    most = std::max(most,
-                    travel_along(law, run, ellipse, rotated(best_angle, ellipse.axis()),
-                                 best_share, kFine));
-  }
+  if (most > 0.0) look_at(best_angle, best_share, kFine);
   return std::min(most, run.cap);
 }
 

@@ -15,8 +15,9 @@
 namespace prehensile {
 
 /// A bound on the travel of every run from the start to the goal [m], at most `cap`; 0
-/// where the law is not known. `run`: its laws are not asked. Some milliseconds, up to
-/// twenty. Allocates.
-double travel_across_slabs(const LocalLaw& law, const RunQuestion& run);
+/// where the law is not known. `run`: its laws are not asked. `known` [m]: a bound that
+/// there is already; less is not looked for. Up to some milliseconds. Allocates.
+double travel_across_slabs(const LocalLaw& law, const RunQuestion& run,
+                           double known = 0.0);
 
 }  // namespace prehensile

@@ -19,6 +19,7 @@ constexpr double kNarrowest = kPi / 1440.0;  // [rad] half of a sector that is n
 /// Motions by one contact in a sector of directions, at places across a slab.
 struct Branch {
   double cost = 0.0;  // least of them, from below
+  LeastTravel least;
   int contact = 0;
   double off = 0.0, half = 0.0;  // [rad] middle of the sector from u, and half of it
   double low = 0.0, high = 0.0;  // [m] of perp(u).p
@@ -41,9 +42,10 @@ double least_cost(const LocalLaw& law, const Slab& slab, const SlabQuestion& que
     const std::array<Vec2, 4> corners = {
         slab.low * u + branch.low * v, end * u + branch.low * v,
         end * u + branch.high * v, slab.low * u + branch.high * v};
-    const double travel = law.least_travel(
-        branch.contact, corners, {rotated(branch.off, u), branch.half}, question.share);
-    branch.cost = std::max(branch.cost, travel / advance);
+    branch.least =
+        law.least_travel(branch.contact, corners, {rotated(branch.off, u), branch.half},
+                         question.share, branch.least);
+    branch.cost = std::max(branch.cost, branch.least.cost / advance);
     if (branch.cost == kInfinity) return;
     open.push_back(branch);
     std::push_heap(open.begin(), open.end());

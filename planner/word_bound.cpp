@@ -15,9 +15,10 @@ namespace {
 
 constexpr int kMostPlacements = 6;
 constexpr int kPlacementsOfSlabs = 3;  // from which on it pays to ask what slabs cost
-// As long as the program of a run takes; where there is none its slabs cost as much,
-// which also limits how many are asked.
-constexpr std::int64_t kNodesPerRun = 700;
+// As long as the program of a run takes, and its slabs, of which that limits how many are
+// asked.
+constexpr std::int64_t kNodesPerRun = 350;
+constexpr std::int64_t kNodesPerSlabs = 700;
 
 /// A node that is open: best first, of equal ones the older.
 struct OpenNode {
@@ -252,7 +253,7 @@ class SingleRuns {
     const double travel = run_bound(question_of(run));
     if (travel <= 0.0) {  // the goal is not ahead: gravity has to help
       if (asks_slabs_) {
-        nodes_ -= kNodesPerRun;
+        nodes_ -= kNodesPerSlabs;
         bound_by_slabs(run);
       }
       if (run.bound >= target_) return;
@@ -269,7 +270,8 @@ class SingleRuns {
   /// All inequalities of an instant together, which the program knows one by one.
   void bound_by_slabs(Run& run) const {
     run.crossed_slabs = true;
-    const double travel = travel_across_slabs(question_.slabs->law(), question_of(run));
+    const double travel = travel_across_slabs(question_.slabs->law(), question_of(run),
+                                              (run.bound - 1.0) * scene_.L);
     run.bound = std::max(run.bound, 1.0 + travel / scene_.L);
   }
 

@@ -66,13 +66,16 @@ void check_instant(const Model& model, const LocalLaw& law, Random& random,
   const double share = random.in(-0.95, 0.95);
   const double travel = std::hypot(1.0, kappa) - share * kappa;
   const std::array corners = corners_around(p_OF, random);
-  const double least = law.least_travel(j, corners, around_direction(-e, random), share);
-  EXPECT_LE(least, travel * (1.0 + 1e-9)) << kappa;
+  const LeastTravel least =
+      law.least_travel(j, corners, around_direction(-e, random), share);
+  EXPECT_LE(least.cost, travel * (1.0 + 1e-9)) << kappa;
   const double sense = random.chance(0.5) ? 1.0 : -1.0;
   const double most = law.most_turn(j, corners, around_direction(-e, random), sense);
   EXPECT_GE(most, sense * kappa - 1e-9 * (1.0 + std::abs(kappa)));
   const std::array here = {p_OF};
-  if (law.least_travel(j, here, {-e, 0.0}, share) > 0.95 * travel) ++tally.sharp;
+  const double least_here = law.least_travel(j, here, {-e, 0.0}, share).cost;
+  EXPECT_EQ(law.least_travel(j, here, {-e, 0.0}, share, least).cost, least_here);
+  if (least_here > 0.95 * travel) ++tally.sharp;
   const double range =
       law.most_turn(j, here, {-e, 0.0}, 1.0) + law.most_turn(j, here, {-e, 0.0}, -1.0);
   if (range < 2.0 * (1.0 + std::abs(kappa))) ++tally.bounded;

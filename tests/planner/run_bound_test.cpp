@@ -159,6 +159,7 @@ TEST(RunBound, FindsTheShortestRun) {
     question.cap = 0.3;
     const double bound = run_bound(question);
     question.chords_only = true;
+    question.weight = 1e-4 * question.cap;
     RunPath path;
     if (!run_path(question, path)) continue;
     ++found;

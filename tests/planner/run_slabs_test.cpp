@@ -60,6 +60,9 @@ void attack(int scenes, int pushes, std::uint64_t seed) {
       const double least = travel_across_slabs(law, run);
       EXPECT_LE(least, travel * (1.0 + 1e-6)) << i;
       sharp += least > 0.9 * travel ? 1 : 0;
+      const double known = random.in(0.5, 1.1) * travel;
+      EXPECT_GE(std::max(known, travel_across_slabs(law, run, known)),
+                0.999 * std::max(known, least));
       run.goal.slack.fill(1e-3);  // nor for goals around this one
       run.turn_low -= random.in(0.0, 0.3);
       EXPECT_LE(travel_across_slabs(law, run), travel * (1.0 + 1e-6)) << i;

@@ -42,19 +42,19 @@ class ChainSearch {
     }
   }
 
-  std::optional<FoundChain> run_crossings() {
+  std::optional<FoundChain> run_crossings(double to_beat) {
     for (const Steering& steering : steering_) {
-      try_crossings(steering);
+      try_crossings(steering, to_beat);
       if (good_enough() || limits_.reached()) return found_;
     }
     return found_;
   }
 
   std::optional<FoundChain> run() {
-    run_crossings();
+    run_crossings(kNoPlan);
     if (good_enough() || limits_.reached()) return found_;
     for (const Steering& steering : steering_) {
-      try_nodes(steering, kCoarse);
+      try_nodes(steering, kCoarse, kNoPlan);
       if (good_enough() || limits_.reached()) return found_;
     }
     return found_;
@@ -139,25 +139,28 @@ class ChainSearch {
     }
   }
 
-  void try_crossings(const Steering& steering) {
-    BestWayPoints points;
+  /// Dearer plans than what there is are not looked at.
+  double least_of(double to_beat) const {
+    return found_ ? std::min(to_beat, found_->chain.cost) : to_beat;
+  }
+
+  void try_crossings(const Steering& steering, double to_beat) {
+    BestWayPoints points(least_of(to_beat));
     for (int place = 0; place < goals_.count && !limits_.reached(); ++place) {
       add_crossings(steering, start_, goals_, place, work_, points);
     }
     keep_first_that_sticks(steering, points);
   }
 
-  void try_nodes(const Steering& steering, const Fineness& fineness,
-                 double to_beat = kNoPlan) {
-    BestWayPoints points(to_beat);
+  void try_nodes(const Steering& steering, const Fineness& fineness, double to_beat) {
+    BestWayPoints points(least_of(to_beat));
     add_nodes(steering, nodes(fineness), start_, goals_, work_, points);
     keep_first_that_sticks(steering, points);
   }
 
   void try_labels(const Steering& steering, const Fineness& fineness, double to_beat) {
     keep(search_labels(steering, search_, nodes(fineness), start_, goals_,
-                       std::min(to_beat, found_ ? found_->chain.cost : kNoPlan), limits_,
-                       work_));
+                       least_of(to_beat), limits_, work_));
   }
 
   const SearchModel& search_;
@@ -174,10 +177,10 @@ class ChainSearch {
 
 std::optional<FoundChain> search_crossings(const SearchModel& search,
                                            const FlatState& start,
-                                           const GoalPlaces& goals, const Limits& limits,
-                                           Work& work) {
+                                           const GoalPlaces& goals, double to_beat,
+                                           const Limits& limits, Work& work) {
   if (goals.count == 0) return std::nullopt;
-  return ChainSearch(search, start, goals, 0.0, limits, work).run_crossings();
+  return ChainSearch(search, start, goals, 0.0, limits, work).run_crossings(to_beat);
 }
 
 std::optional<FoundChain> search_exact_chains(const SearchModel& search,

@@ -44,10 +44,11 @@ std::optional<FoundChain> search_long_chains(const SearchModel& search,
                                              const PadEnvelope* envelope, double to_beat,
                                              const Limits& limits, Work& work);
 
-/// The first of these stages alone: two pushes through a crossing of cone lines.
+/// The first of these stages alone: two pushes through a crossing of cone lines, cheaper
+/// than this J.
 std::optional<FoundChain> search_crossings(const SearchModel& search,
                                            const FlatState& start,
-                                           const GoalPlaces& goals, const Limits& limits,
-                                           Work& work);
+                                           const GoalPlaces& goals, double to_beat,
+                                           const Limits& limits, Work& work);
 
 }  // namespace prehensile

@@ -90,10 +90,10 @@ std::optional<std::vector<Move>> longer_moves(
 
 /// Over whole discs only, where the search knows the pads: elsewhere plans to the goal
 /// itself fail their exact check often enough. One straight push to a place beside the
-/// goal, or two by way of a crossing of cone lines.
+/// goal, or two cheaper than `to_beat` by way of a crossing of cone lines.
 std::optional<std::vector<Move>> search_within_tolerance(const SearchModel& search,
                                                          const FlatState& from,
-                                                         const Goal& goal,
+                                                         const Goal& goal, double to_beat,
                                                          const Limits& limits,
                                                          Work& work) {
   if (!search.exact_everywhere) return std::nullopt;
@@ -101,7 +101,7 @@ std::optional<std::vector<Move>> search_within_tolerance(const SearchModel& sear
   if (const auto move = direct_push(search, from, places, work)) {
     return std::vector{*move};
   }
-  const auto found = search_crossings(search, from, places, limits, work);
+  const auto found = search_crossings(search, from, places, to_beat, limits, work);
   if (!found) return std::nullopt;
   return moves_of(search, from, found->chain);
 }
@@ -136,8 +136,11 @@ std::optional<std::vector<Move>> search_plane(const SearchModel& search,
   if (work.meter) work.meter->bound(trivial_bound(*search.model, start, goal));
   const auto found = search_chains(search, from, goals, bound, limits, work);
   if (found) best.offer(moves_of(search, from, found->chain));
-  if (auto near = search_within_tolerance(search, from, goal, limits, work)) {
-    best.offer(std::move(*near), kWorthTolerance);
+  const double worth = kWorthTolerance * best.cost();
+  if (worth > bound) {
+    if (auto near = search_within_tolerance(search, from, goal, worth, limits, work)) {
+      best.offer(std::move(*near), kWorthTolerance);
+    }
   }
   if (!best.any() && !limits.improves() && !limits.reached()) {
     if (auto wound = search_wound(search, from, goal, goals, bound, limits, work)) {

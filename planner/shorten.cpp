@@ -116,6 +116,13 @@ using ChainFinder = std::optional<FoundChain> (*)(const SearchModel&, const Flat
                                                   const GoalPlaces&, const Limits&,
                                                   Work&);
 
+std::optional<FoundChain> search_any_crossing(const SearchModel& search,
+                                              const FlatState& start,
+                                              const GoalPlaces& goals,
+                                              const Limits& limits, Work& work) {
+  return search_crossings(search, start, goals, kFar, limits, work);
+}
+
 std::optional<FoundChain> search_nodes(const SearchModel& search, const FlatState& start,
                                        const GoalPlaces& goals, const Limits& limits,
                                        Work& work) {
@@ -212,7 +219,7 @@ double cost_of(const SearchModel& search, const std::vector<Move>& moves) {
 
 std::vector<Move> shortened(const SearchModel& search, const std::vector<Move>& moves,
                             const Limits& limits, Work& work) {
-  return by_two_pushes(&search_crossings, search,
+  return by_two_pushes(&search_any_crossing, search,
                        by_single_pushes(search, moves, limits, work), limits, work);
 }
 

@@ -53,6 +53,14 @@ bool crossing(const Vec2& start, const Vec2& e_1, const Vec2& goal, const Vec2& 
   return true;
 }
 
+double least_turn(const GoalPlace& goal, double theta_start) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < goal.count; ++i) {
+    least = std::min(least, std::abs(goal.theta[i] - theta_start));
+  }
+  return least;
+}
+
 }  // namespace
 
 double BestWayPoints::worst_cost() const {
@@ -93,6 +101,11 @@ void add_crossings(const Steering& steering, const FlatState& start,
   const SearchModel& search = steering.search;
   const Vec2& goal = goals.places[place].p_OF;
   const int contacts = static_cast<int>(search.contacts.size());
+  const double turn = least_turn(goals.places[place], start.theta);
+  const auto may_be_kept = [&](int placements, const Vec2& p_OF) {
+    const double length = (start.p_OF - p_OF).norm() + (goal - p_OF).norm();
+    return straight_cost(*search.model, placements, length, turn) < best.worst_cost();
+  };
   Chain chain;
   for (int i = 0; i < contacts; ++i) {
     const Directions from = promising_directions(search, i, start.p_OF);
@@ -102,6 +115,7 @@ void add_crossings(const Steering& steering, const FlatState& start,
         Vec2 p_OF;
         Leg first, second;
         if (crossing(start.p_OF, from.e[k / to.count], goal, to.e[k % to.count], p_OF) &&
+            may_be_kept(i == j ? 1 : 2, p_OF) &&
             make_leg(steering, i, {start.p_OF, true}, {p_OF}, work, first) &&
             make_leg(steering, j, {p_OF}, {goal, true}, work, second)) {
           add_way_point(steering, start.theta, goals, place, first, second, chain, best);

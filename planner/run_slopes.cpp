@@ -5,6 +5,7 @@
 namespace prehensile {
 namespace {
 
+// Places of the laws of a piece in RunNumbers, and of those of the end.
 constexpr int kLength = 0;
 constexpr int edge(int e) { return 1 + e; }
 constexpr int end(int set, int e) { return 3 + 2 * set + e; }

@@ -15,8 +15,8 @@ namespace {
 
 constexpr int kMostPlacements = 6;
 constexpr int kPlacementsOfSlabs = 3;  // from which on it pays to ask what slabs cost
-// As long as the program of a run takes, and its slabs, of which that limits how many are
-// asked.
+// As long as the program of a run takes, and its slabs where there is none; these are few
+// for that.
 constexpr std::int64_t kNodesPerRun = 350;
 constexpr std::int64_t kNodesPerSlabs = 700;
 

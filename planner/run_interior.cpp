@@ -8,9 +8,8 @@ namespace {
 
 constexpr double kViolation = 1e3;  // cost of what is violated, per m
 constexpr double kNearly = 0.99;    // of the way to the border of what is positive
-constexpr double kStuck =
-    0.1;  // steps of a smaller share are followed by one to the middle
-constexpr double kNear = 2.0;  // times the last weight
+constexpr double kStuck = 0.1;      // after a share of less the next step is central
+constexpr double kNear = 2.0;       // times the last weight
 constexpr int kMostHalvings = 30;
 
 /// Of the objective.

@@ -22,9 +22,8 @@ class RunInterior {
 
   RunMultipliers multipliers() const { return multipliers_of(y_); }
   double violation() const { return x_[RunIndex::kV]; }  ///< [m]
-  double share() const {
-    return x_[RunIndex::kShare];
-  }  ///< of the goal's arc, at the end
+  /// Of the goal's arc, at the end.
+  double share() const { return x_[RunIndex::kShare]; }
 
   /// t.p from the start [m], after piece k and at the end.
   double lateral(int k) const { return x_[3 * k]; }

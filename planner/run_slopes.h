@@ -52,6 +52,7 @@ class RunSlopes {
 
   /// 1; 0: a law that the scene does not have, whose slack is 1.
   const RunNumbers& is_there() const { return is_there_; }
+  /// What each law is met by: [m], of the ends of the face [m^2]; negative: violated.
   RunNumbers slacks_at(const RunVector& x) const;
 
   /// Slopes at x, and second derivatives times these multipliers.
@@ -87,6 +88,7 @@ class RunSlopes {
   Eigen::Matrix<double, kOfEnd, kOfEnd> bend_of_end_;
 };
 
+/// Those that the dual knows (run_program.h).
 RunMultipliers multipliers_of(const RunNumbers& numbers);
 
 }  // namespace prehensile

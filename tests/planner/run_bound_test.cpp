@@ -9,13 +9,14 @@
 #include "planner/segment.h"
 #include "problems/published_regrasps.h"
 #include "scene/outline.h"
-#include "tests/planner/law_cases.h"
+#include "tests/planner/run_programs.h"
 
 namespace prehensile {
 namespace {
 
 using testing::advance_of;
 using testing::Random;
+using testing::random_run_scene;
 
 constexpr double kPi = std::numbers::pi;
 
@@ -76,12 +77,7 @@ void attack_with_runs(int scenes, std::uint64_t seed) {
   Random random(seed);
   int runs = 0, sharp = 0;
   for (int i = 0; i < scenes; ++i) {
-    Scene scene = random.chance(0.5) ? published_square(0) : published_tee(0);
-    if (random.chance(0.5)) scene.g_W.setZero();
-    scene.gripper.grip_force = random.log_in(12.0, 80.0);
-    for (auto& pusher : scene.pushers) pusher.friction = random.in(0.2, 1.1);
-    if (random.chance(0.4)) scene = with_soft_points(scene);
-    const Model model = prepare(scene);
+    const Model model = prepare(random_run_scene(random));
     const RunLaws laws = run_laws(model);
     for (int k = 0; k < 20; ++k) {
       const int contact = random.below(static_cast<int>(model.contacts.size()));

@@ -9,18 +9,22 @@
 
 namespace prehensile::testing {
 
+/// A square or a T among walls, over discs or soft points.
+inline Scene random_run_scene(Random& random) {
+  Scene scene = random.chance(0.5) ? published_square(0) : published_tee(0);
+  if (random.chance(0.5)) scene.g_W.setZero();
+  scene.gripper.grip_force = random.log_in(12.0, 80.0);
+  for (auto& pusher : scene.pushers) pusher.friction = random.in(0.2, 1.1);
+  return random.chance(0.4) ? with_soft_points(scene) : scene;
+}
+
 /// Calls `f(program, cap)` for runs by one contact between random places; cap [m] is
 /// somewhat more than the straight way.
 template <typename F>
 void for_random_runs(int scenes, std::uint64_t seed, const F& f) {
   Random random(seed);
   for (int i = 0; i < scenes; ++i) {
-    Scene scene = random.chance(0.5) ? published_square(0) : published_tee(0);
-    if (random.chance(0.5)) scene.g_W.setZero();
-    scene.gripper.grip_force = random.log_in(12.0, 80.0);
-    for (auto& pusher : scene.pushers) pusher.friction = random.in(0.2, 1.1);
-    if (random.chance(0.4)) scene = with_soft_points(scene);
-    const Model model = prepare(scene);
+    const Model model = prepare(random_run_scene(random));
     const RunLaws laws = run_laws(model);
     for (int k = 0; k < 20; ++k) {
       const Vec2 start = random.in_box(0.045, 0.045);

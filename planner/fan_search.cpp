@@ -21,6 +21,7 @@ constexpr std::array<int, 3> kLegPieces = {8, 32, 128};
 constexpr double kDearRotation = 1e3;  // in place of kFreeRotationCost, under limits
 constexpr int kBranchNodes = 200;      // lattice of places where legs may begin
 constexpr int kMostBranches = 8;
+constexpr int kMostPlacesOfLegs = 8;  // of a goal, which lie close together
 
 using Moves = std::vector<Move>;
 
@@ -41,7 +42,8 @@ class FanSearch {
         if (auto moves = walk(start, {place.p_OF, place.theta[j]})) return moves;
       }
     }
-    for (int i = 0; i < goals.count && !limits_.reached(); ++i) {
+    const int stride = std::max(1, goals.count / kMostPlacesOfLegs);
+    for (int i = 0; i < goals.count && !limits_.reached(); i += stride) {
       const GoalPlace& place = goals.places[i];
       if (auto moves = with_legs(start, {place.p_OF, place.theta[0]})) return moves;
     }

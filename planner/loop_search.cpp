@@ -254,9 +254,10 @@ class LoopSearch {
   TurnWindow window_;       // of c dtheta [m]
 };
 
-/// A margin of the place closes ways that narrow.
+/// A margin of the place closes ways that narrow, and so do pads that have to hold at
+/// every angle and are not alike there.
 bool has_room_for_narrow_ways(const SearchModel& search) {
-  return search.margin.place == 0.0;
+  return search.margin.place == 0.0 && search.model->region.is_isotropic();
 }
 
 /// Lattice by lattice, until one has a walk.

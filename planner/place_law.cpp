@@ -17,9 +17,9 @@ constexpr int kSlopesOfWhole = 181;
 constexpr int kSlopesOfClipped = 61;
 constexpr int kMoreSlopesOfClipped = 121;
 
-/// Every so many slopes it is looked at first whether those up to the next are hopeless:
-/// an inequality lacks so much at both, over F or F c.
-constexpr std::size_t kStride = 4;
+/// So many stretches of slopes are first looked at whether they are hopeless: at both of
+/// their ends an inequality lacks so much, over F or F c.
+constexpr std::size_t kStretches = 15;
 constexpr double kHopeless = 0.25;
 
 /// Angles of the object at which whole and clipped pads are looked at: of these there are
@@ -212,16 +212,17 @@ class DirectedDrag::Instants {
 
 KappaRanges DirectedDrag::kappas(const StickContact& contact, const Vec2& p_OF) noexcept {
   const Instants instants(*this, contact, p_OF);
+  const std::size_t stride = (slopes_.size() - 1) / kStretches;
   KappaRanges set;
   bool stuck = false;
   unsigned before = 0;
   unsigned after = instants.hopeless(0);
   for (std::size_t i = 0; i < slopes_.size(); ++i) {
-    if (i % kStride == 0) {
+    if (i % stride == 0) {
       before = after;
-      after = i + kStride < slopes_.size() ? instants.hopeless(i + kStride) : 0;
+      after = i + stride < slopes_.size() ? instants.hopeless(i + stride) : 0;
     }
-    const bool is_hopeless = i % kStride == 0 ? before != 0 : (before & after) != 0;
+    const bool is_hopeless = i % stride == 0 ? before != 0 : (before & after) != 0;
     const bool sticks = !is_hopeless && instants.sticks(i);
     if (sticks && !stuck) {
       if (set.count == 2) break;

@@ -71,7 +71,20 @@ PadEnvelope::Table PadEnvelope::tabulate(const Model& model, const Row& grid,
     table.moment_low[i] -= kBetweenAngles;
     table.moment_high[i] += kBetweenAngles;
   }
+  table.most_along = std::ranges::max(table.along_low);
+  table.least_along = std::ranges::min(table.along_high);
+  table.least_across = std::ranges::min(table.across);
+  table.most_moment = std::ranges::max(table.moment_low);
+  table.least_moment = std::ranges::min(table.moment_high);
   return table;
+}
+
+bool PadEnvelope::may_hold(const Inequality& row, const Table& table) noexcept {
+  const double along = row.along > 0.0 ? table.most_along : table.least_along;
+  const double moment = row.moment > 0.0 ? table.most_moment : table.least_moment;
+  const double left =
+      row.along * along - row.across * table.least_across + row.moment * moment;
+  return left - row.right >= 0.0;
 }
 
 KappaSet PadEnvelope::kappas(const StickContact& contact, const Vec2& from,
@@ -109,6 +122,11 @@ KappaSet PadEnvelope::kappas(const StickContact& contact, const Vec2& from,
   add_end(a, -1.0);
   add_end(b, 1.0);
 
+  for (int t = 0; t < tables_; ++t) {
+    for (int k = 0; k < count; ++k) {
+      if (!may_hold(rows[k], table_[t])) return {};
+    }
+  }
   // The normal rate at an end x is e_n - kappa s_x / c; one of them must not recede.
   const double e_n = e.dot(contact.n);
   const double s_a = std::max((a - from).dot(contact.t), (a - to).dot(contact.t));

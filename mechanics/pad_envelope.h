@@ -37,6 +37,8 @@ class PadEnvelope {
     Row along_low, along_high;    ///< force along e
     Row across;                   ///< greatest |force| across e
     Row moment_low, moment_high;  ///< about the finger axis
+    /// Over the kappas, of what `keep` takes for a positive and a negative factor.
+    double most_along, least_along, least_across, most_moment, least_moment;
   };
 
   /// along f_e - across |f_o| + moment m >= right, for the wrench (f_e, f_o, m).
@@ -56,6 +58,8 @@ class PadEnvelope {
     void close_in() noexcept;
   };
 
+  /// Whether an inequality may hold at some kappa.
+  static bool may_hold(const Inequality& row, const Table& table) noexcept;
   static void keep(const Inequality& row, const Table& table, Slack& slack) noexcept;
   KappaSet intervals(const Slack& slack) const noexcept;
   static Table tabulate(const Model& model, const Row& grid, double stretch);

@@ -72,9 +72,13 @@ class DirectedDrag {
   /// at p_OF. No heap.
   KappaRanges kappas(const StickContact& contact, const Vec2& p_OF) noexcept;
 
+  /// Whether the friction cone of a contact may hold at some kappa: if not, it sticks at
+  /// none, wherever the finger axis is. No heap.
+  bool is_in_cone(const StickContact& contact) noexcept;
+
   /// Of motions the other way, whose friction is the opposite: what either has found both
   /// know. Must not outlive this.
-  DirectedDrag opposite() noexcept;
+  DirectedDrag opposite();
 
   /// One of the kappas that are looked at, and the angle of (1, kappa) [rad].
   struct Slope {
@@ -87,17 +91,25 @@ class DirectedDrag {
     double moment = 0.0;
     bool known = false;
   };
+  enum class Angles { kFirst, kAll };
+  /// About the wrenches (force, moment) of a few slopes.
+  struct WrenchBox {
+    Vec3 middle, half;
+    bool known = false;
+  };
   class Instants;
   static std::span<const Slope> slopes_for(const PadsAtPlace& pads, Steepness steepness);
-  explicit DirectedDrag(DirectedDrag* other) noexcept;
+  explicit DirectedDrag(DirectedDrag* other);
   Sample sample(std::size_t slope, std::size_t angle) noexcept;
+  const WrenchBox& box(std::size_t block, Angles of) noexcept;
 
   const Model& model_;
   const PadsAtPlace& pads_;
   Vec2 e_;
   std::span<const Slope> slopes_;
   std::size_t angles_;
-  std::vector<Sample> samples_;  // by slope and angle; empty where the other has them
+  std::vector<Sample> samples_;   // by slope and angle; empty where the other has them
+  std::vector<WrenchBox> boxes_;  // by block of slopes, of either angles
   DirectedDrag* opposite_ = nullptr;  // that has
 };
 

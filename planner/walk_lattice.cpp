@@ -98,6 +98,8 @@ void WalkLattice::set_ends(const FlatState& start, const GoalPlaces& goals) {
     node.edges.resize(node.steps);
     node.knows_goals = false;
   }
+  pads_of_ends_.clear();
+  pads_of_ends_.resize(1 + static_cast<std::size_t>(goals.count));
   nodes_.push_back({start.p_OF});
   for (int i = 0; i < goals.count; ++i) nodes_.push_back({goals.places[i].p_OF});
 }
@@ -157,25 +159,16 @@ void WalkLattice::find_slopes(Node& node, Work& work) {
   if (!node.slopes.empty()) return;
   find_held(node, work);
   node.slopes.resize(steps_.size() * contacts_);
-  const bool whole = PadsAtPlace::are_whole_at(model_, node.p_OF);
-  if (whole && !whole_pads_) {
-    whole_pads_.emplace(model_, node.p_OF);
-    for (const Step& step : steps_) {
-      whole_drags_.emplace_back(model_, *whole_pads_, step.e, steepness_);
-    }
-  }
   work.other += static_cast<std::int64_t>(steps_.size());
+  if (PadsAtPlace::are_whole_at(model_, node.p_OF))
+    return find_slopes_of_whole_pads(node);
+  const PadsAtPlace pads(model_, node.p_OF);
+  if (pads.are_lost()) return;
   const auto keep = [&](std::size_t s, DirectedDrag& drag) {
     for (int k = 0; k < contacts_; ++k) {
       node.slopes[s * contacts_ + k] = KeptRanges(slopes_along(node, k, drag));
     }
   };
-  if (whole) {
-    for (std::size_t s = 0; s < steps_.size(); ++s) keep(s, whole_drags_[s]);
-    return;
-  }
-  const PadsAtPlace pads(model_, node.p_OF);
-  if (pads.are_lost()) return;
   // The last step is the first one back, and so on.
   for (std::size_t s = 0; s < steps_.size() / 2; ++s) {
     DirectedDrag drag(model_, pads, steps_[s].e, steepness_);
@@ -183,6 +176,31 @@ void WalkLattice::find_slopes(Node& node, Work& work) {
     keep(s, drag);
     keep(steps_.size() - 1 - s, back);
   }
+}
+
+void WalkLattice::find_slopes_of_whole_pads(Node& node) {
+  if (whole_drags_.empty()) {
+    const PadsAtPlace& pads = whole_pads_at(node.p_OF);
+    for (const Step& step : steps_) {
+      DirectedDrag& drag = whole_drags_.emplace_back(model_, pads, step.e, steepness_);
+      for (const StickContact& contact : weak_) {
+        are_in_cone_.push_back(drag.is_in_cone(contact) ? 1 : 0);
+      }
+    }
+  }
+  for (std::size_t s = 0; s < steps_.size(); ++s) {
+    for (int k = 0; k < contacts_; ++k) {
+      const std::size_t at = s * contacts_ + k;
+      if (!are_in_cone_[at]) continue;
+      node.slopes[at] = KeptRanges(slopes_along(node, k, whole_drags_[s]));
+    }
+  }
+}
+
+/// The same at all places where they are whole.
+const PadsAtPlace& WalkLattice::whole_pads_at(const Vec2& p_OF) {
+  if (!whole_pads_) whole_pads_.emplace(model_, p_OF);
+  return *whole_pads_;
 }
 
 void WalkLattice::add_edges(const KappaRanges& slopes, int contact, int to, double length,
@@ -271,6 +289,20 @@ const PadsAtPlace& WalkLattice::pads_between(int from, const Step& step,
   return between_.try_emplace(place, model_, middle).first->second;
 }
 
+/// The pads at the start, a goal, or the node whose pushes to the goals are looked for.
+const PadsAtPlace& WalkLattice::kept_pads_at(int node) {
+  if (PadsAtPlace::are_whole_at(model_, place(node))) return whole_pads_at(place(node));
+  if (node >= start_) {
+    std::optional<PadsAtPlace>& pads = pads_of_ends_[node - start_];
+    return pads ? *pads : pads.emplace(model_, place(node));
+  }
+  if (pads_of_node_.first != node) {
+    pads_of_node_.second.emplace(model_, place(node));
+    pads_of_node_.first = node;
+  }
+  return *pads_of_node_.second;
+}
+
 /// Between the start or a goal and any other place.
 void WalkLattice::add_given(int from, int to, Work& work, std::vector<WalkEdge>& edges) {
   const Vec2 way = place(to) - place(from);
@@ -283,14 +315,18 @@ void WalkLattice::add_given(int from, int to, Work& work, std::vector<WalkEdge>&
   find_held(nodes_[to], work);
   ++work.other;
   const Vec2 e = -way / length;
-  const PadsAtPlace pads_from(model_, place(from));
-  const PadsAtPlace pads_to(model_, place(to));
+  const PadsAtPlace& pads_from = kept_pads_at(from);
+  const PadsAtPlace& pads_to = kept_pads_at(to);
   DirectedDrag drag_from(model_, pads_from, e, steepness_);
-  DirectedDrag drag_to(model_, pads_to, e, steepness_);
+  std::optional<DirectedDrag> drag_to;  // where it differs
   for (int k = 0; k < contacts_; ++k) {
-    add_edges(common(slopes_along(nodes_[from], k, drag_from),
-                     slopes_along(nodes_[to], k, drag_to)),
-              k, to, length, edges);
+    const KappaRanges at_from = slopes_along(nodes_[from], k, drag_from);
+    if (at_from.count == 0) continue;
+    if (&pads_to != &pads_from && !drag_to) {
+      drag_to.emplace(model_, pads_to, e, steepness_);
+    }
+    const KappaRanges at_to = slopes_along(nodes_[to], k, drag_to ? *drag_to : drag_from);
+    add_edges(common(at_from, at_to), k, to, length, edges);
   }
 }
 

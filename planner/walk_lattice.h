@@ -7,6 +7,7 @@
 #include <optional>
 #include <tuple>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "planner/free_directions.h"
@@ -115,10 +116,13 @@ class WalkLattice {
   void add_steps(int stride);
   void find_held(Node& node, Work& work) const;
   void find_slopes(Node& node, Work& work);
+  void find_slopes_of_whole_pads(Node& node);
   KappaRanges slopes_along(const Node& node, int contact, DirectedDrag& drag) const;
   using OfContacts = std::vector<KappaRanges>;
   OfContacts slopes_of_step(std::size_t step, const Node& from, const Node& to) const;
   void look_between(int from, int to, std::size_t step, OfContacts& slopes, Work& work);
+  const PadsAtPlace& whole_pads_at(const Vec2& p_OF);
+  const PadsAtPlace& kept_pads_at(int node);
   const PadsAtPlace& pads_between(int from, const Step& step, const Vec2& middle);
   void add_edges(const KappaRanges& slopes, int contact, int to, double length,
                  std::vector<WalkEdge>& edges) const;
@@ -138,7 +142,10 @@ class WalkLattice {
   std::vector<int> at_grid_;  // the node there, or -1
   int start_ = 0;
   std::optional<PadsAtPlace> whole_pads_;
-  std::vector<DirectedDrag> whole_drags_;                  // by step
+  std::vector<DirectedDrag> whole_drags_;  // by step
+  std::vector<char> are_in_cone_;          // whole pads, by step and contact
+  std::vector<std::optional<PadsAtPlace>> pads_of_ends_;  // the start, the goals
+  std::pair<int, std::optional<PadsAtPlace>> pads_of_node_ = {-1, std::nullopt};
   std::unordered_map<std::size_t, OfContacts> backwards_;  // of steps not yet asked for
   std::unordered_map<int, PadsAtPlace> between_;           // by half rows and columns
   std::vector<Narrowed> narrowed_;

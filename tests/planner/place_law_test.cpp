@@ -1,5 +1,6 @@
 #include "planner/place_law.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -117,6 +118,61 @@ TEST(PlaceLaw, OfClippedDiscsIsThatOfTheRealPads) {
   EXPECT_GT(admitted, 200);
   EXPECT_GE(sticking, 0.97 * admitted);
   EXPECT_LE(by_closed_form, 0.9 * admitted);
+}
+
+/// What sticks firmly at all angles of the object it admits, whole or clipped, but where
+/// little is left of the pads, and third intervals.
+TEST(PlaceLaw, AdmitsWhatSticksFirmly) {
+  Random random(6);
+  Scene scene = testing::walled_square();
+  scene.overhang = Overhang::kClip;
+  const Model model = prepare(scene);
+  const SearchModel search = prepare_search(model, Margin::none());
+  int firmly = 0;
+  int admitted = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const int contact = random.below(static_cast<int>(search.contacts.size()));
+    const SearchContact& pusher = search.contacts[static_cast<std::size_t>(contact)];
+    const Vec2 p_OF = random.in_box(0.0499, 0.0499);
+    const Vec2 e = rotated(random.in(-1.0, 1.0), pusher.stick.n);
+    const double kappa = std::tan(random.in(-1.2, 1.2));
+    double slack = 1.0;
+    for (int k = 0; k < 16; ++k) {
+      const PlanarPose X_HO = pose_from_finger(p_OF, kPi * k / 8.0);
+      slack =
+          std::min(slack, exact_stick_test(model, model.contacts[pusher.contact], 0.0,
+                                           X_HO, e, 1.0, kappa / model.c, Margin::none())
+                              .slack);
+    }
+    if (slack < 0.03) continue;
+    ++firmly;
+    admitted += holds(ranges_at(search, contact, p_OF, e), kappa);
+  }
+  EXPECT_GT(firmly, 200);
+  EXPECT_GE(admitted, 0.99 * firmly);
+}
+
+TEST(PlaceLaw, OutsideTheConeNothingSticksAnywhere) {
+  Random random(7);
+  Scene scene = testing::walled_square();
+  scene.overhang = Overhang::kClip;
+  const Model model = prepare(scene);
+  const SearchModel search = prepare_search(model, Margin::none());
+  const PadsAtPlace whole(model, Vec2::Zero());
+  int outside = 0;
+  int inside = 0;
+  for (int i = 0; i < 300; ++i) {
+    const int contact = random.below(static_cast<int>(search.contacts.size()));
+    const StickContact& stick = search.contacts[static_cast<std::size_t>(contact)].stick;
+    DirectedDrag drag(model, whole, random.direction());
+    const bool is_in_cone = drag.is_in_cone(stick);
+    ++(is_in_cone ? inside : outside);
+    for (int k = 0; k < 20 && !is_in_cone; ++k) {
+      EXPECT_EQ(drag.kappas(stick, random.in_box(0.02, 0.02)).count, 0);
+    }
+  }
+  EXPECT_GT(outside, 50);
+  EXPECT_GT(inside, 50);
 }
 
 /// In single precision, but for a point about which the object turns nearly.

@@ -109,7 +109,7 @@ class DirectedDrag {
   std::span<const Slope> slopes_;
   std::size_t angles_;
   std::vector<Sample> samples_;   // by slope and angle; empty where the other has them
-  std::vector<WrenchBox> boxes_;  // by block of slopes, of either angles
+  std::vector<WrenchBox> boxes_;  // by block of slopes, at the first angle and at all
   DirectedDrag* opposite_ = nullptr;  // that has
 };
 

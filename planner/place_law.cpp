@@ -23,9 +23,11 @@ constexpr int kMoreSlopesOfClipped = 121;
 constexpr std::size_t kStretches = 15;
 constexpr double kHopeless = 0.25;
 
-/// The slopes of the others are looked at so many at once first: a divisor of the length
-/// of the stretches.
+/// The slopes of the others are looked at so many at once first.
 constexpr std::size_t kInBlock = 4;
+static_assert((kSlopesOfWhole - 1) % (kStretches * kInBlock) == 0);
+static_assert((kSlopesOfClipped - 1) % (kStretches * kInBlock) == 0);
+static_assert((kMoreSlopesOfClipped - 1) % (kStretches * kInBlock) == 0);
 
 /// Angles of the object at which whole and clipped pads are looked at: of these there are
 /// more points.

@@ -160,8 +160,10 @@ void WalkLattice::find_slopes(Node& node, Work& work) {
   find_held(node, work);
   node.slopes.resize(steps_.size() * contacts_);
   work.other += static_cast<std::int64_t>(steps_.size());
-  if (PadsAtPlace::are_whole_at(model_, node.p_OF))
-    return find_slopes_of_whole_pads(node);
+  if (PadsAtPlace::are_whole_at(model_, node.p_OF)) {
+    find_slopes_of_whole_pads(node);
+    return;
+  }
   const PadsAtPlace pads(model_, node.p_OF);
   if (pads.are_lost()) return;
   const auto keep = [&](std::size_t s, DirectedDrag& drag) {

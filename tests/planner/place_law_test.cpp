@@ -25,11 +25,11 @@ bool holds(const KappaRanges& ranges, double kappa) {
   return false;
 }
 
-KappaRanges ranges_at(const SearchModel& search, int contact, const Vec2& p_OF,
+KappaRanges ranges_at(const Model& model, const StickContact& stick, const Vec2& p_OF,
                       const Vec2& e) {
-  const PadsAtPlace pads(*search.model, p_OF);
-  DirectedDrag drag(*search.model, pads, e);
-  return drag.kappas(search.contacts[static_cast<std::size_t>(contact)].stick, p_OF);
+  const PadsAtPlace pads(model, p_OF);
+  DirectedDrag drag(model, pads, e);
+  return drag.kappas(stick, p_OF);
 }
 
 /// Over soft points the closed form knows the intervals.
@@ -45,9 +45,17 @@ TEST(PlaceLaw, OfSoftPointsIsTheClosedForm) {
     const StickContact& stick = search.contacts[static_cast<std::size_t>(contact)].stick;
     const Vec2 p_OF = random.in_box(0.04, 0.04);
     const Vec2 e = rotated(random.in(-1.0, 1.0), stick.n);
-    const KappaRanges ranges = ranges_at(search, contact, p_OF, e);
+    const KappaRanges ranges = ranges_at(model, stick, p_OF, e);
+    const auto slack_at = [&](double kappa) {
+      return stick_test(stick, model.F, p_OF, e, 1.0, kappa / model.c).slack;
+    };
+    for (int k = 0; k < ranges.count; ++k) {
+      const auto [lo, hi] = ranges.intervals[static_cast<std::size_t>(k)];
+      EXPECT_GT(slack_at(lo), 0.0);
+      EXPECT_GT(slack_at(hi), 0.0);
+    }
     const double kappa = std::tan(random.in(-1.2, 1.2));
-    const double slack = stick_test(stick, model.F, p_OF, e, 1.0, kappa / model.c).slack;
+    const double slack = slack_at(kappa);
     if (slack > 0.02) {
       ++inside;
       EXPECT_TRUE(holds(ranges, kappa)) << kappa << " slack " << slack;
@@ -60,23 +68,41 @@ TEST(PlaceLaw, OfSoftPointsIsTheClosedForm) {
   EXPECT_GT(outside, 200);
 }
 
+/// Discs on a square, which clips them at its border.
+struct ClippedDiscs {
+  Model model = prepare([] {
+    Scene scene = testing::walled_square();
+    scene.overhang = Overhang::kClip;
+    return scene;
+  }());
+  SearchModel search = prepare_search(model, Margin::none());
+
+  const SearchContact& random_pusher(Random& random) const {
+    return search.contacts[random.below(static_cast<int>(search.contacts.size()))];
+  }
+
+  /// Of the real pads, at one pose.
+  double slack(const SearchContact& pusher, const PlanarPose& X_HO, const Vec2& e,
+               double kappa) const {
+    return exact_stick_test(model, model.contacts[pusher.contact], 0.0, X_HO, e, 1.0,
+                            kappa / model.c, Margin::none())
+        .slack;
+  }
+};
+
 /// Friction is the opposite for the opposite motion, whole or clipped.
 TEST(PlaceLaw, OppositeIsThatOfMotionsTheOtherWay) {
   Random random(4);
-  Scene scene = testing::walled_square();
-  scene.overhang = Overhang::kClip;
-  const Model model = prepare(scene);
-  const SearchModel search = prepare_search(model, Margin::none());
+  const ClippedDiscs discs;
   int ranges = 0;
   for (int i = 0; i < 400; ++i) {
-    const int contact = random.below(static_cast<int>(search.contacts.size()));
-    const StickContact& stick = search.contacts[static_cast<std::size_t>(contact)].stick;
+    const StickContact& stick = discs.random_pusher(random).stick;
     const Vec2 p_OF = random.in_box(0.0499, 0.0499);
     const Vec2 e = rotated(random.in(-1.0, 1.0), stick.n);
-    const PadsAtPlace pads(model, p_OF);
-    DirectedDrag back(model, pads, -e);
+    const PadsAtPlace pads(discs.model, p_OF);
+    DirectedDrag back(discs.model, pads, -e);
     const KappaRanges one = back.opposite().kappas(stick, p_OF);
-    const KappaRanges other = ranges_at(search, contact, p_OF, e);
+    const KappaRanges other = ranges_at(discs.model, stick, p_OF, e);
     ASSERT_EQ(one.count, other.count);
     for (int k = 0; k < one.count; ++k) {
       ++ranges;
@@ -94,26 +120,20 @@ TEST(PlaceLaw, OfClippedDiscsIsThatOfTheRealPads) {
   int admitted = 0;
   int sticking = 0;
   int by_closed_form = 0;
-  Scene scene = testing::walled_square();
-  scene.overhang = Overhang::kClip;
-  const Model model = prepare(scene);
-  const SearchModel search = prepare_search(model, Margin::none());
+  const ClippedDiscs discs;
   for (int i = 0; i < 4000; ++i) {
-    const int contact = random.below(static_cast<int>(search.contacts.size()));
-    const SearchContact& pusher = search.contacts[static_cast<std::size_t>(contact)];
+    const SearchContact& pusher = discs.random_pusher(random);
     const Vec2 p_OF = random.in_box(0.0499, 0.0499);
     const PlanarPose X_HO = pose_from_finger(p_OF, random.in(-kPi, kPi));
-    if (model.region.is_whole(X_HO)) continue;
+    if (discs.model.region.is_whole(X_HO)) continue;
     const Vec2 e = rotated(random.in(-1.0, 1.0), pusher.stick.n);
     const double kappa = std::tan(random.in(-1.2, 1.2));
-    if (!holds(ranges_at(search, contact, p_OF, e), kappa)) continue;
+    if (!holds(ranges_at(discs.model, pusher.stick, p_OF, e), kappa)) continue;
     ++admitted;
-    const double slack = exact_stick_test(model, model.contacts[pusher.contact], 0.0,
-                                          X_HO, e, 1.0, kappa / model.c, Margin::none())
-                             .slack;
-    sticking += slack >= 0.0;
-    by_closed_form +=
-        stick_test(pusher.stick, model.F, p_OF, e, 1.0, kappa / model.c).slack >= 0.0;
+    sticking += discs.slack(pusher, X_HO, e, kappa) >= 0.0;
+    const auto closed_form =
+        stick_test(pusher.stick, discs.model.F, p_OF, e, 1.0, kappa / discs.model.c);
+    by_closed_form += closed_form.slack >= 0.0;
   }
   EXPECT_GT(admitted, 200);
   EXPECT_GE(sticking, 0.97 * admitted);
@@ -124,29 +144,22 @@ TEST(PlaceLaw, OfClippedDiscsIsThatOfTheRealPads) {
 /// little is left of the pads, and third intervals.
 TEST(PlaceLaw, AdmitsWhatSticksFirmly) {
   Random random(6);
-  Scene scene = testing::walled_square();
-  scene.overhang = Overhang::kClip;
-  const Model model = prepare(scene);
-  const SearchModel search = prepare_search(model, Margin::none());
+  const ClippedDiscs discs;
   int firmly = 0;
   int admitted = 0;
   for (int i = 0; i < 3000; ++i) {
-    const int contact = random.below(static_cast<int>(search.contacts.size()));
-    const SearchContact& pusher = search.contacts[static_cast<std::size_t>(contact)];
+    const SearchContact& pusher = discs.random_pusher(random);
     const Vec2 p_OF = random.in_box(0.0499, 0.0499);
     const Vec2 e = rotated(random.in(-1.0, 1.0), pusher.stick.n);
     const double kappa = std::tan(random.in(-1.2, 1.2));
     double slack = 1.0;
     for (int k = 0; k < 16; ++k) {
       const PlanarPose X_HO = pose_from_finger(p_OF, kPi * k / 8.0);
-      slack =
-          std::min(slack, exact_stick_test(model, model.contacts[pusher.contact], 0.0,
-                                           X_HO, e, 1.0, kappa / model.c, Margin::none())
-                              .slack);
+      slack = std::min(slack, discs.slack(pusher, X_HO, e, kappa));
     }
     if (slack < 0.03) continue;
     ++firmly;
-    admitted += holds(ranges_at(search, contact, p_OF, e), kappa);
+    admitted += holds(ranges_at(discs.model, pusher.stick, p_OF, e), kappa);
   }
   EXPECT_GT(firmly, 200);
   EXPECT_GE(admitted, 0.99 * firmly);
@@ -154,17 +167,13 @@ TEST(PlaceLaw, AdmitsWhatSticksFirmly) {
 
 TEST(PlaceLaw, OutsideTheConeNothingSticksAnywhere) {
   Random random(7);
-  Scene scene = testing::walled_square();
-  scene.overhang = Overhang::kClip;
-  const Model model = prepare(scene);
-  const SearchModel search = prepare_search(model, Margin::none());
-  const PadsAtPlace whole(model, Vec2::Zero());
+  const ClippedDiscs discs;
+  const PadsAtPlace whole(discs.model, Vec2::Zero());
   int outside = 0;
   int inside = 0;
   for (int i = 0; i < 300; ++i) {
-    const int contact = random.below(static_cast<int>(search.contacts.size()));
-    const StickContact& stick = search.contacts[static_cast<std::size_t>(contact)].stick;
-    DirectedDrag drag(model, whole, random.direction());
+    const StickContact& stick = discs.random_pusher(random).stick;
+    DirectedDrag drag(discs.model, whole, random.direction());
     const bool is_in_cone = drag.is_in_cone(stick);
     ++(is_in_cone ? inside : outside);
     for (int k = 0; k < 20 && !is_in_cone; ++k) {

@@ -1,5 +1,6 @@
 #include "planner/walk_lattice.h"
 
+#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -64,6 +65,48 @@ TEST(WalkLattice, LiesInRows) {
     EXPECT_NEAR(rows.place({0.0, spacing}).norm(), spacing / 12.0, 1e-15);
   }
   EXPECT_GT(alike, 0);
+}
+
+/// The nearest node to a place at which the face clips the pads; if none, the place.
+Vec2 clipped_beside(const Case& c, const WalkLattice& lattice, const Vec2& p_OF) {
+  Vec2 nearest = p_OF;
+  double least = std::numeric_limits<double>::infinity();
+  for (int node = 0; node < lattice.start(); ++node) {
+    const Vec2& place = lattice.place(node);
+    const double distance = (place - p_OF).norm();
+    if (PadsAtPlace::are_whole_at(c.model, place) || distance >= least) continue;
+    least = distance;
+    nearest = place;
+  }
+  return nearest;
+}
+
+/// Nothing of other ends stays, the pads there neither.
+TEST(WalkLattice, OtherEndsHaveOtherPads) {
+  int clipped = 0;
+  for (std::uint64_t i = 0; i < 16; ++i) {
+    Case c(i);
+    WalkLattice first(c.search, c.start, c.goals, {kNodesPerSide}, Steepness::kUsual);
+    const Vec2 one = clipped_beside(c, first, c.start.p_OF);
+    const Vec2 other = clipped_beside(c, first, -one);
+    clipped += !PadsAtPlace::are_whole_at(c.model, one) && one != other;
+    const auto start_at = [&](const Vec2& p_OF) {
+      return FlatState{0.98 * p_OF, c.start.theta};
+    };
+    const auto goal_at = [&](const Vec2& p_OF) {
+      GoalPlaces goal = c.goals;
+      goal.count = 1;
+      goal.places[0].p_OF = 0.97 * p_OF;
+      return goal;
+    };
+    first.set_ends(start_at(other), goal_at(other));
+    all_edges(first, c.work);
+    first.set_ends(start_at(one), goal_at(one));
+    WalkLattice fresh(c.search, start_at(one), goal_at(one), {kNodesPerSide},
+                      Steepness::kUsual);
+    expect_same(all_edges(first, c.work), all_edges(fresh, c.work));
+  }
+  EXPECT_GT(clipped, 3);
 }
 
 /// Whatever was asked for before, and however its edges were narrowed.

@@ -22,7 +22,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -34,13 +33,13 @@
 #include "benchmarks/svg_file.h"
 #include "planner/catalogue.h"
 #include "plot/chart.h"
+#include "scene/constants.h"
 
 namespace prehensile::benchmarks {
 namespace {
 
 /// Shares of the cheapest plan's cost by which a plan counts as as good.
 constexpr double kAsGood = 0.01;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::uint64_t kSeed = 1;  // of random problems and planners
 
 /// That improve their plans, and the fastest of those that do not. Blind ones are a

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "scene/constants.h"
 
 namespace prehensile::section {
 namespace {
@@ -202,7 +203,6 @@ Extremes extremes_at_sheet(const ForceProgram& force,
   }
   const LinearSolution least = minimise(force.program, up);
   const LinearSolution greatest = minimise(force.program, down);
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const bool no_least = least.status == LinearStatus::kUnbounded;
   const bool no_greatest = greatest.status == LinearStatus::kUnbounded;
   return {.solved = least.feasible() && greatest.feasible(),

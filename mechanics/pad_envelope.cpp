@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "mechanics/pad_drag.h"
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
@@ -13,7 +13,6 @@ namespace {
 constexpr int kAngles = 48;              // over a whole turn
 constexpr double kBetweenAngles = 3e-3;  // of the wrench, in F and F c
 constexpr int kAnglesOfDisc = 12;        // its quadrature is nearly the same at all
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The most that a term of the weight may come to.
 double worst(double term, const Margin& margin) {

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "mechanics/pad_drag.h"
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kEllipsoidMoment = 1e-9;  // tolerances at a point contact, over F c
 constexpr double kPadMoment = 1e-3;
 

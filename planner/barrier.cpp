@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -17,12 +16,11 @@
 #include "planner/local_law.h"
 #include "planner/place_slacks.h"
 #include "planner/traced_regions.h"
+#include "scene/constants.h"
 #include "scene/outline.h"
 
 namespace prehensile {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Of the grids that are tried, over the longer side of the object. Over whole pads those
 /// finer than kNodesOfAll only where the one before separates the goal.

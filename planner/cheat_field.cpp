@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <queue>
 #include <tuple>
 #include <utility>
 
+#include "scene/constants.h"
+
 namespace prehensile {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Straight pieces of a way lead to the nodes up to so many rows or columns away.
 constexpr int kStride = 10;

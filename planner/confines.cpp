@@ -7,11 +7,11 @@
 #include "planner/confines_check.h"
 #include "planner/obstacle_bodies.h"
 #include "planner/placement.h"
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
 bool in_box(const Vec2& p, const Vec2& low, const Vec2& high) {

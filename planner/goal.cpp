@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "planner/confines.h"
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// Offsets of a free angle from that of the start [degrees].
 constexpr std::array<double, 12> kAngles = {0.0,   15.0, -15.0, 30.0,  -30.0,  60.0,

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "planner/baselines.h"
@@ -15,11 +14,10 @@
 #include "planner/walk_rows.h"
 #include "planner/walk_search.h"
 #include "planner/walk_turns.h"
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Lattices that are tried: those of other walks, and then some that are not kept. These
 /// take a second or so each.

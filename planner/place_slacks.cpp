@@ -3,19 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "mechanics/pad_law.h"
 #include "mechanics/sticking.h"
 #include "planner/ring_pads.h"
+#include "scene/constants.h"
 #include "scene/outline.h"
 #include "scene/segment_distance.h"
 
 namespace prehensile {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kDirections = FreeDirections::kLookedAt;
 
 /// Nodes of the grid over the longer side of the object.

@@ -1,7 +1,6 @@
 #include "planner/plane_search.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "planner/best_moves.h"
@@ -15,11 +14,10 @@
 #include "planner/shorten.h"
 #include "planner/walk_search.h"
 #include "planner/wound_search.h"
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Chains and fans of the stages that know the pads themselves. `best`: the plan so far,
 /// to be improved.

@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
+
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Directions of motion that are looked at, over a quarter turn. Where quarter turns
 /// differ there are boxes for each of some sectors of it, in each of which more are.

@@ -10,11 +10,11 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 #include <optional>
 
 #include "planner/planner.h"
 #include "planner/steering.h"
+#include "scene/constants.h"
 
 namespace prehensile {
 
@@ -167,7 +167,6 @@ class PushSteps {
 template <typename Uniform>
 PushControl PushSteps::random_push(double longest, Uniform&& uniform) const {
   constexpr double kConeShare = 0.8;  // of headings
-  constexpr double kPi = std::numbers::pi;
   const double contacts = static_cast<double>(search_.contacts.size());
   PushControl push;
   push.letter = static_cast<int>(contacts * uniform());

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
+
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
@@ -150,7 +151,6 @@ KappaSet RingTable::kappas(const StickContact& contact, const Vec2& p_OF,
   // The pusher advances at one end of the face at least.
   const double a = contact.n.dot(perp(contact.a - p_OF)) / c;
   const double b = contact.n.dot(perp(contact.b - p_OF)) / c;
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (e_n >= 0.0 && a > 0.0 && b > 0.0) {
     keep_between(-e_n / std::min(a, b), kInfinity, set);
   } else if (e_n >= 0.0 && a < 0.0 && b < 0.0) {

@@ -3,17 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
-#include <numbers>
 
 #include "planner/point_section.h"
 #include "planner/ring_pads.h"
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Cones wider than this have no useful edges.
 constexpr double kWidestCone = 1.4;  // [rad] from the normal

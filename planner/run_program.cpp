@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "planner/segment.h"
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRounding = 1e-7;    // [m] by which a run may violate a law unnoticed
 constexpr double kShallowest = 1e-4;  // [m] depth below which there is nothing to cut
 

@@ -3,17 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "planner/segment.h"
 #include "planner/slab_cost.h"
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Directions of u, and shares for either sense of the turn: all are looked at coarsely,
 /// and the best finely.

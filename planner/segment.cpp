@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/constants.h"
 #include "scene/outline.h"
 #include "scene/segment_distance.h"
 
@@ -74,7 +75,6 @@ double distance_to_border(const std::vector<Vec2>& outline, const Vec2& p,
 
 Extent extent_across(const std::vector<Vec2>& outline, const Vec2& along,
                      const Vec2& across, double low, double high) noexcept {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Extent extent{kInfinity, -kInfinity};
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const Vec2& p = outline[i];

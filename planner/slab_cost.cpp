@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <vector>
+
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 constexpr int kFirstSectors = 4;             // of half a turn about u
 constexpr double kNarrowest = kPi / 1440.0;  // [rad] half of a sector that is not divided

@@ -2,17 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "planner/segment.h"
 #include "planner/slab_cost.h"
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Slabs over the object, and steps of the branch and bound for each: the coarse ones
 /// tell along which way, and for which share, it is worth to look at the fine ones.

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -17,12 +16,12 @@
 #include "planner/local_law.h"
 #include "planner/traced_regions.h"
 #include "planner/turn_bounder.h"
+#include "scene/constants.h"
 #include "scene/outline.h"
 
 namespace prehensile {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kHalfTurn = std::numbers::pi;
 
 /// Where the face clips the discs: so much slack, over F, may be missing on the lines

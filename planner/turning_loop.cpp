@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
+
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Rounds of policy iteration; a handful are the rule, and what the last one has is a
 /// loop, too.

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
-#include <limits>
+
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// As many edges are followed in the time of a stick test, about.
 constexpr int kEdgesPerTest = 16;

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kWidestTurn = 0.5;  // [rad] of a first goal piece
 
 /// Greatest distance of the goal's place from the nominal one at these turns [m].

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLength = 1e-7;  // [m] by which a piece may violate a law unnoticed
 
 /// Lines are worth their price where the area between paths is worth this share of what

@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "mechanics/pad_law.h"
 #include "primitives/force_search.h"
 #include "primitives/linear_push.h"
 #include "primitives/space_grip.h"
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Halvings of the search for the least grip that holds.
 constexpr int kHalvings = 60;

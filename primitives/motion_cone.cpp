@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/constants.h"
+
 namespace prehensile {
 namespace {
 
@@ -99,7 +101,6 @@ MotionCone motion_cone(const ConeMember& nominal, const std::vector<ConeMember>&
 }
 
 std::vector<DirectionRange> ranges_where(const std::function<bool(double)>& holds) {
-  constexpr double kPi = std::numbers::pi;
   const auto edge = [&](double inside, double outside) {
     while (std::abs(outside - inside) > 1e-10) {
       const double middle = 0.5 * (inside + outside);

@@ -1,10 +1,10 @@
 /// What a contact can and cannot do about a wanted motion, in closed form.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "primitives/place.h"
 #include "primitives/place_wrench.h"
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
@@ -43,7 +43,6 @@ struct GripRange {
   double low, high;
 };
 GripRange allowed(double at_low, double at_high, double low, double high) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (at_low >= 0.0 && at_high >= 0.0) return {low, high};
   if (at_low < 0.0 && at_high < 0.0) return {kInfinity, -kInfinity};
   const double zero = low + (high - low) * at_low / (at_low - at_high);

@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
 #include "primitives/border.h"
 #include "primitives/spatial_push_instant.h"
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Rates of turn that are looked at in one direction.
 constexpr int kScan = 40;

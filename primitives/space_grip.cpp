@@ -1,17 +1,14 @@
 #include "primitives/space_grip.h"
 
-#include <limits>
-
 #include "mechanics/spatial_instant.h"
 #include "mechanics/spatial_model.h"
 #include "primitives/force_search.h"
 #include "primitives/linear_push.h"
 #include "primitives/spatial_push_instant.h"
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Least precision of forces: near the limit of holding an instant takes a thousand times
 /// as long as elsewhere.

@@ -1,16 +1,15 @@
 #include "problems/extreme_regrasps.h"
 
 #include <cmath>
-#include <numbers>
 #include <sstream>
 
 #include "mechanics/model.h"
 #include "problems/random_fixtures.h"
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kDenormal = 1e-310;
 
 std::string number(double x) {

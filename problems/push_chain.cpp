@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <set>
 
 #include "mechanics/sticking.h"
 #include "primitives/roll.h"
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kShortestMove = 5e-3;  // [m]
 constexpr double kLongestMove = 40e-3;  // [m]
 constexpr double kLargestTurn = 2.0;    // [rad]

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <vector>
 
@@ -10,11 +9,11 @@
 #include "mechanics/model.h"
 #include "problems/push_chain.h"
 #include "problems/tee_prism.h"
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kScenes = 200;  // drawn before giving up
 constexpr int kStarts = 30;   // drawn in one scene
 

@@ -1,9 +1,9 @@
 #include "problems/random_pushes.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "problems/random_stream.h"
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
@@ -43,7 +43,6 @@ RandomPush random_push(std::uint64_t seed, std::uint64_t index) {
   scene.gripper.friction.fill(0.5 * (mu_1 + mu_2));
   scene.gripper.grip_force = stream.in(10.0, 60.0);
   scene.overhang = stream.chance(0.5) ? Overhang::kIgnore : Overhang::kClip;
-  constexpr double kPi = std::numbers::pi;
   scene.g_W = rotated(stream.in(-kPi, kPi), {kGravity, 0.0});
 
   Pusher pusher;

@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "problems/push_chain.h"
 #include "problems/tee_prism.h"
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 PrismShape random_tee(RandomStream& random) {
   const double width = random.in(0.06, 0.14);

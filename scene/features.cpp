@@ -1,13 +1,7 @@
-#include <limits>
-
+#include "scene/constants.h"
 #include "scene/scene.h"
 
 namespace prehensile {
-namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 bool can_roll(const Object& object) {
   const auto* cylinder = std::get_if<CylinderShape>(&object.shape);

@@ -1,19 +1,18 @@
 #include "planner/ompl/push_controls.h"
 
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include <ompl/control/spaces/DiscreteControlSpace.h>
 #include <ompl/control/spaces/RealVectorControlSpace.h>
+
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
 
 namespace ob = ompl::base;
 namespace oc = ompl::control;
-
-constexpr double kPi = std::numbers::pi;
 
 constexpr double kFinishShare = 0.1;  ///< of steered controls: straight to the goal
 constexpr double kAimShare = 0.4;     ///< of these: to a random state

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
-#include <numbers>
 #include <numeric>
 #include <vector>
 
 #include <ompl/base/spaces/RealVectorStateProjections.h>
+
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
@@ -23,7 +24,6 @@ void bound(ob::RealVectorBounds& bounds, unsigned dimension, double low, double 
 }
 
 ob::RealVectorBounds bounds_of(const PushSteps& steps, const Grasp& start) {
-  constexpr double kPi = std::numbers::pi;
   const unsigned dimensions = static_cast<unsigned>(steps.model().state_dimensions());
   const FlatBox box = box_around(steps.model(), start, steps.goal());
   ob::RealVectorBounds bounds(dimensions);

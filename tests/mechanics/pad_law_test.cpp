@@ -1,21 +1,19 @@
 #include "mechanics/pad_law.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "mechanics/certificate.h"
 #include "mechanics/sticking.h"
 #include "problems/published_regrasps.h"
+#include "scene/constants.h"
 #include "tests/support/random.h"
 
 namespace prehensile {
 namespace {
 
 using testing::Random;
-
-constexpr double kPi = std::numbers::pi;
 
 Scene random_scene(Random& random) {
   Scene scene = random.chance(0.5) ? published_square(random.below(50))

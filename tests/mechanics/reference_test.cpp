@@ -3,12 +3,12 @@
 #include "mechanics/reference.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "mechanics/planar_instant.h"
 #include "problems/random_instants.h"
+#include "scene/constants.h"
 #include "tests/mechanics/instant_cases.h"
 
 namespace prehensile {
@@ -17,8 +17,6 @@ namespace {
 using testing::disc_grasp;
 using testing::line_drive;
 using testing::point_drive;
-
-constexpr double kPi = std::numbers::pi;
 
 class Reference : public ::testing::Test {
  protected:

@@ -3,12 +3,12 @@
 #include "mechanics/spatial_reference.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "mechanics/spatial_instant.h"
 #include "problems/random_spatial.h"
+#include "scene/constants.h"
 #include "tests/mechanics/spatial_cases.h"
 #include "tests/support/random.h"
 
@@ -21,7 +21,6 @@ using testing::push;
 using testing::Random;
 using testing::weight_at;
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kRate = 0.01;
 
 PadLaw pad(double mu, double grip, double softness = 1e-3) {

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cstdio>
-#include <limits>
 
 #include <gtest/gtest.h>
 
 #include "mechanics/sticking.h"
+#include "scene/constants.h"
 #include "tests/support/no_heap.h"
 #include "tests/support/random.h"
 
@@ -12,8 +12,6 @@ namespace prehensile {
 namespace {
 
 using testing::Random;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// What gravity and centre of mass do in half of the cases, and nothing in the other.
 StickContact random_contact(Random& random) {

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -13,6 +12,7 @@
 #include "planner/goal.h"
 #include "planner/refuse.h"
 #include "problems/random_fixtures.h"
+#include "scene/constants.h"
 #include "tests/planner/law_cases.h"
 #include "tests/planner/planner_cases.h"
 
@@ -25,8 +25,6 @@ using testing::Random;
 using testing::random_kappa;
 using testing::slack_of_pads;
 using testing::walled_square;
-
-constexpr double kPi = std::numbers::pi;
 
 /// A goal on a way within the friction cone of the one wall left, but not for a wall that
 /// has to lift the object as well.

@@ -2,13 +2,13 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include <gtest/gtest.h>
 
 #include "planner/angle_scan.h"
 #include "planner/goal.h"
+#include "scene/constants.h"
 #include "tests/planner/planner_cases.h"
 #include "tests/support/random.h"
 
@@ -17,8 +17,6 @@ namespace {
 
 using testing::goal_at;
 using testing::Random;
-
-constexpr double kPi = std::numbers::pi;
 
 TEST(AngleScan, BoundsTheMinimumFromBelow) {
   Random random(1);

@@ -2,16 +2,15 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "problems/published_regrasps.h"
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 const CheatField::Stopped kNever = [] { return false; };
 
 /// The finger axis may go by up to half a right angle to both sides of +x.

@@ -1,12 +1,12 @@
 #include "planner/clipped_law.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "mechanics/pad_law.h"
 #include "planner/steering.h"
+#include "scene/constants.h"
 #include "tests/planner/clipped_cases.h"
 #include "tests/planner/law_cases.h"
 
@@ -18,8 +18,6 @@ using testing::clipped_place;
 using testing::clipped_square;
 using testing::Random;
 using testing::random_kappa;
-
-constexpr double kPi = std::numbers::pi;
 
 Scene random_clipped_scene(Random& random) {
   Scene scene = clipped_square();

@@ -1,14 +1,13 @@
 #include "planner/free_directions.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "scene/constants.h"
+
 namespace prehensile {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// Sine of the angle beyond an arc around `middle`, computed in another way.
 double beyond(double angle, double middle, double half, double freely) {

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/constants.h"
 #include "tests/planner/planner_cases.h"
 #include "tests/support/random.h"
 
@@ -14,8 +15,6 @@ namespace {
 
 using testing::goal_at;
 using testing::Random;
-
-constexpr double kPi = std::numbers::pi;
 
 TEST(Goal, CountsAnglesByWholeTurns) {
   Goal goal = goal_at({-0.02, 0.01}, 3.1);

@@ -1,16 +1,14 @@
 #include "planner/half_planes.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "problems/published_regrasps.h"
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// Directions within `half` of an angle.
 auto around(double angle, double half) {

@@ -2,16 +2,14 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
+#include "scene/constants.h"
 #include "tests/support/random.h"
 
 namespace prehensile {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Edge {
   int from, to, contact;

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "scene/constants.h"
 #include "tests/planner/law_cases.h"
 
 namespace prehensile {
@@ -17,8 +17,6 @@ using testing::random_kappa;
 using testing::random_law_scene;
 using testing::random_shape_scene;
 using testing::slack_of_pads;
-
-constexpr double kPi = std::numbers::pi;
 
 /// Places around p, of some length in any direction.
 PlaceSpan around(const Vec2& p, Random& random) {

@@ -13,7 +13,7 @@ namespace prehensile {
 namespace {
 
 namespace ob = ompl::base;
-using testing::kUnlimited;
+using testing::kNoBudget;
 
 class OmplInterface : public ::testing::Test {
  protected:
@@ -25,7 +25,7 @@ TEST_F(OmplInterface, APlannerThatWeDoNotKnowSolvesOurProblem) {
   const Scene scene = testing::regrasps()[0];
   const Model model = prepare(scene);
   const SearchModel search = prepare_search(model, Margin{});
-  Work work{.budget = kUnlimited};
+  Work work{.budget = kNoBudget};
   const PushProblem problem(search, scene.start, *scene.goal, work);
 
   ompl::control::PDST planner(problem.space_information());
@@ -45,7 +45,7 @@ TEST_F(OmplInterface, OurPlannerIsOneOfTheirs) {
   for (const Scene& scene : testing::regrasps()) {
     const Model model = prepare(scene);
     const SearchModel search = prepare_search(model, Margin{});
-    Work work{.budget = kUnlimited};
+    Work work{.budget = kNoBudget};
     const PushProblem problem(search, scene.start, *scene.goal, work);
 
     const auto own = std::make_shared<PushPlanner>(problem, PlanOptions{});
@@ -74,7 +74,7 @@ TEST_F(OmplInterface, OurPlannerHonoursTheTerminationCondition) {
   const Scene scene = testing::hopeless_regrasp();
   const Model model = prepare(scene);
   const SearchModel search = prepare_search(model, Margin{});
-  Work work{.budget = kUnlimited};
+  Work work{.budget = kNoBudget};
   const PushProblem problem(search, scene.start, *scene.goal, work);
   PushPlanner planner(problem, PlanOptions{});
   planner.setProblemDefinition(problem.definition());
@@ -91,7 +91,7 @@ TEST_F(OmplInterface, GoalSamplesAreMembersAndRunOut) {
   scene.goal = Goal{.y = scene.start.X_HO.y - 0.01};
   const Model model = prepare(scene);
   const SearchModel search = prepare_search(model, Margin{});
-  Work work{.budget = kUnlimited};
+  Work work{.budget = kNoBudget};
   const PushProblem problem(search, scene.start, *scene.goal, work);
   const PushGoal& goal = *problem.goal();
   ob::State* state = problem.space_information()->allocState();

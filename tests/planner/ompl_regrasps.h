@@ -1,18 +1,15 @@
 /// Small regrasps for the tests of the OMPL frame.
 #pragma once
 
-#include <cstdint>
-#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "planner/planner.h"
 #include "planner/steering.h"
+#include "tests/planner/planner_cases.h"
 
 namespace prehensile::testing {
-
-inline constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();
 
 inline Pusher wall(const std::string& name, double normal_angle,
                    const std::string& face) {
@@ -63,16 +60,6 @@ inline Scene can_scene() {
   scene.pushers = {wall("floor", 0.5 * std::numbers::pi, "-y"), wall("left", 0.0, "-x"),
                    wall("right", std::numbers::pi, "+x")};
   return scene;
-}
-
-/// Goal that fixes x, y and theta so that the finger axis ends at p_OF.
-inline Goal goal_at(const Vec2& p_OF, double theta) {
-  const PlanarPose X_HO = pose_from_finger(p_OF, theta);
-  Goal goal;
-  goal.x = X_HO.x;
-  goal.y = X_HO.y;
-  goal.theta = theta;
-  return goal;
 }
 
 inline Scene with_goal(Scene scene, const Goal& goal) {

@@ -19,12 +19,12 @@ namespace {
 
 namespace ob = ompl::base;
 namespace oc = ompl::control;
-using testing::kUnlimited;
+using testing::kNoBudget;
 using testing::Random;
 
 /// A problem with everything that it refers to.
 struct Regrasp {
-  explicit Regrasp(const Scene& scene, std::int64_t budget = kUnlimited)
+  explicit Regrasp(const Scene& scene, std::int64_t budget = kNoBudget)
       : model(prepare(scene)),
         search(prepare_search(model, Margin{})),
         work{.budget = budget},
@@ -83,7 +83,7 @@ TEST(OmplSteps, ValidatorAgreesWithTheSticking) {
   Regrasp regrasp(testing::regrasps()[0]);
   const auto& si = regrasp.problem.space_information();
   ob::ScopedState<> a(si), b(si);
-  Work uncounted{.budget = kUnlimited};
+  Work uncounted{.budget = kNoBudget};
   Random random(3);
   int valid = 0;
   int one_way = 0;
@@ -161,7 +161,7 @@ TEST(OmplSteps, ControlsReproduceTheStepTheyStandFor) {
 TEST(OmplSteps, ApproachKeepsThePlaceAndSticks) {
   Regrasp regrasp(testing::regrasps()[0]);
   PushSteps& steps = *regrasp.problem.steps();
-  Work uncounted{.budget = kUnlimited};
+  Work uncounted{.budget = kNoBudget};
   Random random(6);
   int clipped = 0;
   for (int i = 0; i < 5000; ++i) {

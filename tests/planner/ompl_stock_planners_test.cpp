@@ -15,7 +15,7 @@
 namespace prehensile {
 namespace {
 
-using testing::kUnlimited;
+using testing::kNoBudget;
 
 std::vector<PlannerKind> stock_kinds() {
   std::vector<PlannerKind> kinds = planner_catalogue();
@@ -79,7 +79,7 @@ TEST(OmplStockPlanners, OptionsOfTheCatalogueAreParametersOfOmpl) {
   const Model model = prepare(scene);
   const SearchModel search = prepare_search(model, Margin{});
   for (const PlannerKind& kind : stock_kinds()) {
-    Work work{.budget = kUnlimited};
+    Work work{.budget = kNoBudget};
     const PushProblem problem(search, scene.start, *scene.goal, work,
                               meaning_for(kind.family));
     for (const PlannerOption& option : kind.options) {

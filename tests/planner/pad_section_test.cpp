@@ -1,11 +1,11 @@
 #include "planner/pad_section.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "planner/ring_pads.h"
+#include "scene/constants.h"
 #include "tests/planner/law_cases.h"
 #include "tests/planner/section_cases.h"
 
@@ -18,8 +18,6 @@ using testing::is_boxed;
 using testing::is_held;
 using testing::Random;
 using testing::random_kappa;
-
-constexpr double kPi = std::numbers::pi;
 
 /// The points of a disc at so many angles of the object that they fill their circles.
 Drag spread_drag(const Model& model, double kappa) {

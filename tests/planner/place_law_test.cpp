@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "mechanics/pad_drag.h"
+#include "scene/constants.h"
 #include "tests/planner/planner_cases.h"
 #include "tests/support/random.h"
 
@@ -14,8 +14,6 @@ namespace prehensile {
 namespace {
 
 using testing::Random;
-
-constexpr double kPi = std::numbers::pi;
 
 bool holds(const KappaRanges& ranges, double kappa) {
   for (int i = 0; i < ranges.count; ++i) {

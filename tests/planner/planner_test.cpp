@@ -15,6 +15,7 @@
 #include "planner/replay.h"
 #include "primitives/uncertainty.h"
 #include "problems/random_fixtures.h"
+#include "scene/constants.h"
 #include "tests/planner/planner_cases.h"
 #include "tests/support/no_heap.h"
 #include "tests/support/random.h"
@@ -27,8 +28,6 @@ using testing::kNoBudget;
 using testing::NoHeapScope;
 using testing::Random;
 using testing::walled_square;
-
-constexpr double kPi = std::numbers::pi;
 
 double seconds_of_search(const Model& model) {
   const PlanOptions options;

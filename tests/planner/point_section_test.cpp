@@ -1,10 +1,10 @@
 #include "planner/point_section.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "scene/constants.h"
 #include "tests/planner/law_cases.h"
 #include "tests/planner/section_cases.h"
 
@@ -19,8 +19,6 @@ using testing::Random;
 using testing::random_kappa;
 using testing::random_shape_scene;
 using testing::with_square_pads;
-
-constexpr double kPi = std::numbers::pi;
 
 TEST(PointSection, HoldsTheFrictionBetweenItsSamples) {
   Random random(1);

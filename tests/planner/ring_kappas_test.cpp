@@ -1,19 +1,17 @@
 #include "planner/ring_kappas.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "problems/published_regrasps.h"
+#include "scene/constants.h"
 #include "tests/support/random.h"
 
 namespace prehensile {
 namespace {
 
 using testing::Random;
-
-constexpr double kPi = std::numbers::pi;
 
 Scene random_scene(Random& random) {
   Scene scene = random.chance(0.5) ? published_square(0) : published_tee(0);

@@ -1,13 +1,13 @@
 #include "planner/run_bound.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "planner/ring_pads.h"
 #include "planner/segment.h"
 #include "problems/published_regrasps.h"
+#include "scene/constants.h"
 #include "scene/outline.h"
 #include "tests/planner/run_programs.h"
 
@@ -17,8 +17,6 @@ namespace {
 using testing::advance_of;
 using testing::Random;
 using testing::random_run_scene;
-
-constexpr double kPi = std::numbers::pi;
 
 /// Slack of a sticking push by pads whose friction is the same at every angle; negative
 /// where the pusher recedes at one of its ends.

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "scene/constants.h"
 #include "tests/planner/law_cases.h"
 
 namespace prehensile {
@@ -17,8 +17,6 @@ using testing::Random;
 using testing::random_kappa;
 using testing::random_law_scene;
 using testing::slack_of_pads;
-
-constexpr double kPi = std::numbers::pi;
 
 struct Tally {
   int sticking = 0, edges_near = 0, ends_near = 0, turns_near = 0;

@@ -12,7 +12,7 @@
 namespace prehensile {
 namespace {
 
-using testing::kUnlimited;
+using testing::kNoBudget;
 using testing::scene_with;
 using testing::sticking_moves;
 
@@ -67,7 +67,7 @@ TEST(SearchContacts, PointPadsAndFrictionlessGraspsHaveNoContacts) {
   const Model slack = prepare(loose);
   const SearchModel search = prepare_search(slack, Margin{});
   EXPECT_TRUE(search.contacts.empty());
-  Work work{.budget = kUnlimited};
+  Work work{.budget = kNoBudget};
   EXPECT_FALSE(direct_move(search, {{0.02, 0.0}, 0.0}, {{0.0, 0.0}, 0.0}, work));
 }
 

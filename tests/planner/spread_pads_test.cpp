@@ -1,11 +1,11 @@
 #include "planner/spread_pads.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "planner/ring_pads.h"
+#include "scene/constants.h"
 #include "tests/planner/clipped_cases.h"
 #include "tests/support/no_heap.h"
 
@@ -15,8 +15,6 @@ namespace {
 using testing::clipped_place;
 using testing::clipped_square;
 using testing::Random;
-
-constexpr double kPi = std::numbers::pi;
 
 struct Twist {
   Vec2 velocity;

@@ -16,7 +16,7 @@
 namespace prehensile {
 namespace {
 
-using testing::kUnlimited;
+using testing::kNoBudget;
 using testing::near;
 using testing::Random;
 using testing::random_state;
@@ -29,7 +29,7 @@ TEST(Steering, MoveSticksExactlyWhereTheIntervalSaysSo) {
   ASSERT_TRUE(search.exact_everywhere);
   ASSERT_EQ(search.contacts.size(), 3u);
   Random random(1);
-  Work work{.budget = kUnlimited};
+  Work work{.budget = kNoBudget};
   int sticks = 0;
   for (int i = 0; i < 200'000; ++i) {
     const FlatState from = random_state(random);
@@ -57,7 +57,7 @@ TEST(Steering, EndsOfTheIntervalStick) {
   for (const Margin& margin : {Margin::none(), Margin{}}) {
     const SearchModel search = prepare_search(model, margin);
     Random random(2);
-    Work work{.budget = kUnlimited};
+    Work work{.budget = kNoBudget};
     int ends = 0;
     for (int i = 0; i < 20'000; ++i) {
       const FlatState from{random.in_box(0.02, 0.02), random.in(-3.0, 3.0)};
@@ -80,7 +80,7 @@ TEST(Steering, EndsOfTheIntervalStick) {
 TEST(Steering, IsDirected) {
   const Model model = prepare(scene_with(DiscPad{0.009}, LineFeature{}));
   const SearchModel search = prepare_search(model, Margin{});
-  Work work{.budget = kUnlimited};
+  Work work{.budget = kNoBudget};
   // The wall stands at the face -x: the object moves along +x, the finger along -x in it.
   const FlatState from{{0.02, 0.0}, 0.0};
   const FlatState to{{0.0, 0.0}, 0.0};
@@ -99,7 +99,7 @@ TEST(Steering, PreferredContactGoesFirst) {
   scene.pushers.back().friction = 1.2;
   const Model model = prepare(scene);
   const SearchModel search = prepare_search(model, Margin{});
-  Work work{.budget = kUnlimited};
+  Work work{.budget = kNoBudget};
   Random random(3);
   int shared = 0;
   for (int i = 0; i < 20'000; ++i) {
@@ -125,7 +125,7 @@ TEST(Steering, NearlyPureTurnsAreTurns) {
   scene.object.mass = 1.5;
   const Model model = prepare(scene);
   const SearchModel search = prepare_search(model, Margin::none());
-  Work work{.budget = kUnlimited};
+  Work work{.budget = kNoBudget};
   Random random(4);
   int sticks = 0;
   for (int i = 0; i < 5000; ++i) {
@@ -186,7 +186,7 @@ TEST(Steering, MovesOfOtherPadsSurviveADenseCheck) {
     EXPECT_FALSE(search.exact_everywhere);
     const std::vector<Move> moves = sticking_moves(search, 300, 6);
     ASSERT_GT(moves.size(), 100u) << c.name;
-    Work work{.budget = kUnlimited};
+    Work work{.budget = kNoBudget};
     double worst = std::numeric_limits<double>::infinity();
     int negative = 0;
     for (const Move& move : moves) {
@@ -211,7 +211,7 @@ TEST(Steering, DiscMovesSurviveTheRealPad) {
   ASSERT_EQ(moves.size(), 2000u);
   SearchModel nominal = search;
   nominal.margin = Margin::none();
-  Work work{.budget = kUnlimited};
+  Work work{.budget = kNoBudget};
   int nominal_fails = 0;
   int box_fails = 0;
   for (const Move& move : moves) {
@@ -241,7 +241,7 @@ TEST(Steering, MovesArriveWhenThePushIsApplied) {
     ASSERT_EQ(moves.size(), 200u);
     SearchModel nominal = search;
     nominal.margin = Margin::none();
-    Work work{.budget = kUnlimited};
+    Work work{.budget = kNoBudget};
     int arrived = 0;
     for (const Move& move : moves) {
       const Grasp start{pose_along(move.from, move.to, 0.0)};
@@ -292,7 +292,7 @@ TEST(Steering, NeedsNoHeap) {
   const Model model = prepare(scene);
   const SearchModel search = prepare_search(model, Margin{});
   Random random(9);
-  Work work{.budget = kUnlimited};
+  Work work{.budget = kNoBudget};
   int found = 0;
   const testing::NoHeapScope scope;
   for (int i = 0; i < 20'000; ++i) {

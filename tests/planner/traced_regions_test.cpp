@@ -1,17 +1,15 @@
 #include "planner/traced_regions.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "problems/published_regrasps.h"
+#include "scene/constants.h"
 #include "scene/outline.h"
 
 namespace prehensile {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 Model at_the_middle() {
   Scene scene = published_square(0);

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <string>
 
@@ -11,6 +10,7 @@
 #include "optimisation/nonlinear_program.h"
 #include "planner/planner.h"
 #include "problems/random_fixtures.h"
+#include "scene/constants.h"
 #include "scene/outline.h"
 #include "tests/planner/law_cases.h"
 #include "tests/planner/planner_cases.h"
@@ -23,8 +23,6 @@ using testing::goal_at;
 using testing::Random;
 using testing::random_kappa;
 using testing::slack_of_pads;
-
-constexpr double kPi = std::numbers::pi;
 
 FixtureRange few_pushers(std::uint64_t index) {
   FixtureRange range;

@@ -1,18 +1,16 @@
 #include "planner/turning_loop.h"
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "planner/walk_rest.h"
+#include "scene/constants.h"
 #include "tests/planner/random_search.h"
 
 namespace prehensile {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A lattice over a random problem and the ways over it.
 struct Case : testing::RandomLattice {

@@ -1,19 +1,17 @@
 #include "planner/walk_gap.h"
 
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
 #include "planner/walk_rest.h"
+#include "scene/constants.h"
 #include "tests/planner/random_search.h"
 
 namespace prehensile {
 namespace {
 
 using testing::RandomLattice;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Nothing where a walk leads to a goal, and no more than from the start to the nearest
 /// goal elsewhere.

@@ -1,16 +1,14 @@
 #include "planner/walk_rest.h"
 
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
+#include "scene/constants.h"
 #include "tests/planner/random_search.h"
 
 namespace prehensile {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A lattice over a random problem, and what its walks cost.
 struct Case : testing::RandomLattice {

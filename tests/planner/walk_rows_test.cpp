@@ -1,17 +1,15 @@
 #include "planner/walk_rows.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "problems/published_regrasps.h"
+#include "scene/constants.h"
 #include "tests/planner/planner_cases.h"
 
 namespace prehensile {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// A box between walls against two faces at a right angle, without gravity: each pushes
 /// within its friction cone, as the friction of soft points lies along the motion.

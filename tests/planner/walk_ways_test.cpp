@@ -1,17 +1,15 @@
 #include "planner/walk_ways.h"
 
-#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "planner/walk_rest.h"
+#include "scene/constants.h"
 #include "tests/planner/random_search.h"
 
 namespace prehensile {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Case : testing::RandomLattice {
   explicit Case(std::uint64_t index)

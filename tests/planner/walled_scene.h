@@ -2,17 +2,15 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "planner/steering.h"
+#include "tests/planner/no_budget.h"
 #include "tests/support/random.h"
 
 namespace prehensile::testing {
-
-inline constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();
 
 /// A square or a T among three walls, as in the published regrasps.
 inline Scene scene_with(const Pad& pad, const PusherFeature& feature, bool tee = false) {
@@ -56,7 +54,7 @@ inline FlatState near(const FlatState& from, Random& random) {
 inline std::vector<Move> sticking_moves(const SearchModel& search, int wanted,
                                         std::uint64_t seed) {
   Random random(seed);
-  Work work{.budget = kUnlimited};
+  Work work{.budget = kNoBudget};
   std::vector<Move> moves;
   for (int i = 0; i < 200'000 && static_cast<int>(moves.size()) < wanted; ++i) {
     const FlatState from = random_state(random);

@@ -20,7 +20,7 @@
 namespace prehensile {
 namespace {
 
-using testing::kUnlimited;
+using testing::kNoBudget;
 using testing::Random;
 using testing::scene_with;
 
@@ -43,7 +43,7 @@ std::optional<FlatState> wound_up(const SearchModel& search, const FlatState& fr
     if (kappas.contains(kappa_of_less)) return std::nullopt;
   }
   const FlatState end{to, from.theta + turn};
-  Work work{.budget = kUnlimited};
+  Work work{.budget = kNoBudget};
   if (std::abs(turn) > 13.0 * kTurn || !move_sticks(search, 0, from, end, work)) {
     return std::nullopt;
   }
@@ -72,7 +72,7 @@ TEST(WoundSearch, FindsPushesNoDearerThanTheOneThatWindsUp) {
     if (cost_of_one >= kDearPair) continue;
     ++found;
     PlanOptions options;
-    Work work{.budget = kUnlimited};
+    Work work{.budget = kNoBudget};
     const Limits limits(options, work);
     const auto moves = search_wound(search, from, goal, goal_places(model, goal, from),
                                     1.0, limits, work);
@@ -95,7 +95,7 @@ TEST(WoundSearch, EndsBesideTheGoalWhereThatIsAllThatOnePushMeets) {
   const Goal& goal = *scene.goal;
   const FlatState from = flat_state(scene.start);
   PlanOptions options;
-  Work work{.budget = kUnlimited};
+  Work work{.budget = kNoBudget};
   const Limits limits(options, work);
   ASSERT_FALSE(direct_push(search, from, wound_places(model, goal, from), work));
   const auto moves =

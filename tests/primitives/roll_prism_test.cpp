@@ -1,10 +1,9 @@
 #include "primitives/roll_prism.h"
 
-#include <numbers>
-
 #include <gtest/gtest.h>
 
 #include "mechanics/prism_section.h"
+#include "scene/constants.h"
 #include "tests/support/no_heap.h"
 #include "tests/support/sections.h"
 
@@ -15,7 +14,6 @@ using testing::NoHeapScope;
 using testing::Random;
 using testing::regular_section;
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kGravity = 9.81;
 
 /// A prism on a sheet below it.

@@ -106,7 +106,7 @@ nlohmann::ordered_json interval_json(int hits, int samples) {
 
 SampleReport sample_plan(const Model& model, const Plan& plan,
                          const SampleOptions& options) {
-  SampleReport report;
+  SampleReport report{.rolls = plan.rolls()};
   const auto count = static_cast<std::size_t>(options.samples);
   report.trials.resize(count);
   for_each_index(options.samples, options.jobs, [&](int i) {
@@ -146,6 +146,8 @@ std::string describe(const SampleReport& report, const SampleOptions& options) {
       text("%d draws, seed %llu, %s: ", n, static_cast<unsigned long long>(options.seed),
            options.spread == Spread::kNormal ? "normal" : "uniform");
   out += box_text(options.box) + '\n';
+  if (report.rolls)
+    out += "rolls are tried without errors of tilt, centre of mass and angle\n";
   out += "sticks through:        " + interval_text(report.sticking, n) + '\n';
   out += "and ends at the goal:  " + interval_text(report.reaching, n) + '\n';
   for (const auto& [what, times] : report.failures) {

@@ -33,6 +33,7 @@ struct Influence {
 struct SampleReport {
   std::vector<PlanTrial> trials;  ///< by draw
   int successes = 0, sticking = 0, reaching = 0, no_scene = 0;
+  bool rolls = false;  ///< the plan does: see try_plan for what rolls are tried without
   std::vector<Influence> influences;  ///< most influential first
   /// "push 2 slips", "push 1 falls": how often each came first, most frequent first.
   std::vector<std::pair<std::string, int>> failures;

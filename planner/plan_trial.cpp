@@ -11,6 +11,21 @@ void set_contact(Push& push, int contact) {
   std::visit([contact](auto& kind) { kind.contact = contact; }, push);
 }
 
+/// What the law of rolls knows of the box: forces, frictions and places.
+UncertaintyBox box_of_rolls(UncertaintyBox box) {
+  for (const Unknown unknown : {Unknown::kCentreOfMassX, Unknown::kCentreOfMassY,
+                                Unknown::kTilt, Unknown::kGraspAngle}) {
+    box[unknown] = 0.0;
+  }
+  return box;
+}
+
+Grasp turned(const Grasp& grasp, double angle) {
+  Grasp other = grasp;
+  other.X_HO = pose_from_finger(finger_in_object(grasp.X_HO), grasp.X_HO.theta + angle);
+  return other;
+}
+
 }  // namespace
 
 PlanTrial try_plan(const Model& model, const Plan& plan, const UncertaintyBox& box,
@@ -21,8 +36,18 @@ PlanTrial try_plan(const Model& model, const Plan& plan, const UncertaintyBox& b
   rest[Unknown::kGraspX] = rest[Unknown::kGraspY] = rest[Unknown::kGraspAngle] = 0.0;
   std::optional<Model> other;
   for (std::size_t i = 0; i < plan.pushes.size(); ++i) {
-    UncertainPush varied =
-        vary(model.scene, trial.end, plan.pushes[i].push, i == 0 ? box : rest, at);
+    const Push& push = plan.pushes[i].push;
+    const Grasp from{trial.end.X_HO};  // rolled it looks as it did at 0
+    const bool rolls = std::holds_alternative<Roll>(push);
+    UncertainPush varied = vary(model.scene, from, push, i == 0 ? box : rest, at);
+    double askew = 0.0;  // by which the object is off in the hand, unknown to a roll
+    if (rolls) {
+      const double planned = plan.pushes[i].start.X_HO.theta;
+      askew = varied.start.X_HO.theta - planned;
+      const Grasp square = turned(from, planned - from.X_HO.theta);
+      varied = vary(model.scene, square, push, box_of_rolls(i == 0 ? box : rest), at);
+      other.reset();
+    }
     if (!other) {
       trial.is_scene = check(varied.scene).empty();
       if (!trial.is_scene) return trial;
@@ -37,10 +62,12 @@ PlanTrial try_plan(const Model& model, const Plan& plan, const UncertaintyBox& b
     set_contact(varied.push, contact);
     const Transition done = apply(*other, varied.start, varied.push, options);
     trial.status = done.status;
-    trial.end = done.end;
+    const double psi = trial.end.psi + done.end.psi;
+    trial.end = rolls ? turned(done.end, askew) : done.end;
+    trial.end.psi = psi;
+    if (rolls) other.reset();
     trial.slipped = std::max(trial.slipped, done.slipped);
     if (done.max_push_force > trial.push_force) trial.push_force = done.max_push_force;
-    const bool rolls = std::holds_alternative<Roll>(varied.push);
     if (!done.completed() || (!rolls && done.slipped > kTrialSlip)) return trial;
   }
   trial.failed_push = -1;

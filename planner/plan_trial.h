@@ -28,6 +28,10 @@ inline constexpr double kTrialSlip = 1e-6;
 /// pusher and face flush: errors of the object in the hand are carried to the end, while
 /// a real pusher takes away those along its normal. So `sticks` says what the plan
 /// promises, and `reaches` is rather strict.
+///
+/// A roll is known of an object square to its support and with its centre of mass in its
+/// middle only (primitives/roll.h): it is tried without errors of tilt, centre of mass and
+/// angle; the angle by which the object is off in the hand is there again after it.
 PlanTrial try_plan(const Model& model, const Plan& plan, const UncertaintyBox& box,
                    const BoxPoint& at, const TransitionOptions& options = {});
 

@@ -37,6 +37,7 @@ std::string space_margin_fault(const Model& model, const PlannedPush& planned,
   const LinearPush push = as_linear(planned.push);
   if (!is_in_space(model, push, options)) return {};
   const PushContact& contact = model.contacts[push.contact];
+  const Grasp start{planned.start.X_HO};  // rolled it looks as it did at 0
   UncertaintyBox box;
   box[Unknown::kFriction] = margin.friction;
   box[Unknown::kGripForce] = margin.force;
@@ -50,7 +51,7 @@ std::string space_margin_fault(const Model& model, const PlannedPush& planned,
                                        Unknown::kPlace};
   const int combinations = contact.is_point ? 2 : 16;
   if (margin.weightless) {
-    UncertainPush member = vary(model.scene, planned.start, push, box, BoxPoint{});
+    UncertainPush member = vary(model.scene, start, push, box, BoxPoint{});
     member.scene.g_W.setZero();
     member.scene.g_Wz = 0.0;
     const std::string fault = fault_of_member(model, member, options);
@@ -66,7 +67,7 @@ std::string space_margin_fault(const Model& model, const PlannedPush& planned,
     const double along = (i >> 3 & 1) != 0 ? 1.0 : -1.0;
     at(point, Unknown::kCentreOfMassX) = contact.t.x() < 0.0 ? -along : along;
     at(point, Unknown::kCentreOfMassY) = contact.t.y() < 0.0 ? -along : along;
-    const UncertainPush member = vary(model.scene, planned.start, push, box, point);
+    const UncertainPush member = vary(model.scene, start, push, box, point);
     std::string fault = fault_of_member(model, member, options);
     if (!fault.empty()) return fault;
   }

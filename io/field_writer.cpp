@@ -1,7 +1,8 @@
 #include "io/field_writer.h"
 
 #include <cmath>
-#include <limits>
+
+#include "scene/constants.h"
 
 namespace prehensile::internal {
 namespace {
@@ -10,7 +11,6 @@ namespace {
 /// are any.
 std::optional<double> exact_degrees(double radians) {
   const double near = radians / kRadPerDeg;
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (const double degrees :
        {std::round(near * 1e9) / 1e9, near, std::nextafter(near, -kInfinity),
         std::nextafter(near, kInfinity)}) {

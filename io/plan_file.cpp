@@ -127,7 +127,7 @@ class PushMaker {
 
   Push roll(const WrittenPush& record, int contact) {
     if (record.travel == 0.0) fault("travel", "0: expected a motion");
-    if (!model_.cross_section) {
+    if (model_.roll_radius == 0.0) {
       fault("kind", "roll: expected another kind, the object cannot roll");
     }
     if (record.place || record.direction || record.turn) {

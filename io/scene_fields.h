@@ -191,7 +191,7 @@ void visit_start(Fields& fields, Grasp& start) {
   fields.number("y", start.X_HO.y, kPlaces, kOptional, "Of O in H.");
   fields.angle("theta", start.X_HO.theta, kAngles, "Of O in H, about +z.");
   fields.angle("roll", start.psi, kAngles,
-               "About the long axis; only for an object that can roll.");
+               "About the long axis; only for a cylinder that can roll.");
 }
 
 template <typename Fields>
@@ -203,7 +203,8 @@ void visit_goal(Fields& fields, Goal& goal) {
                      "angle: any number of whole turns counts; number: the turns made "
                      "count, too (a cable hangs on the object).");
   fields.angle("roll", goal.psi, kAngles,
-               "About the long axis; only for an object that can roll. Absent: free.");
+               "About the long axis; only for an object that can roll, of a prism to where "
+               "its section looks as at 0. Absent: free.");
   fields.group("tolerance", goal, kOptional, "How near is near enough.",
                [](auto& f, Goal& g) {
                  f.number("position", g.position_tolerance, {1e-9, 1.0, "m"}, kOptional,

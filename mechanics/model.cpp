@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "scene/constants.h"
 #include "scene/lying_prism.h"
 
 namespace prehensile {
@@ -108,6 +109,12 @@ LyingPrism make_prism(const PrismShape& shape, const Model& model) {
   if (shape.axis == Axis::kY) std::swap(prism.axis, prism.lateral);
   prism.com = {prism.lateral.dot(model.p_OCom), model.z_OCom};
   prism.length = shape.thickness;
+  const std::size_t sides = prism.section.size();
+  for (std::size_t i = 0; i < sides; ++i) {
+    prism.circumference += (prism.section[(i + 1) % sides] - prism.section[i]).norm();
+  }
+  const double turn = symmetry_angle(prism.section);
+  if (looks_alike(prism, turn)) prism.same_after = turn;
   return prism;
 }
 
@@ -163,10 +170,9 @@ void explain(const Scene& scene, Model& model) {
   };
   explain_level(scene, model);
   if (scene.g_W.isZero() && scene.g_Wz == 0.0) say("gravity wrench", "gravity is zero");
-  if (model.prism) {
-    say("roll angle in plans",
-        "a prism rolls over its edges: query push follows that, plans do not use it");
-  } else if (!model.cross_section) {
+  if (model.prism && !(scene.goal && scene.goal->psi)) {
+    say("roll angle in plans", "the goal asks for no roll of the prism");
+  } else if (!model.cross_section && !model.prism) {
     say("roll angle and cross-section", "the object cannot roll");
   }
   if (model.contacts.empty()) {
@@ -248,12 +254,22 @@ Model prepare(const Scene& scene, const PrepareOptions& options) {
   model.c = model.region.torque_radius();
   model.L = longer_side(model.outline);
   model.half_thickness = half_thickness(scene.object.shape);
-  if (can_roll(scene.object)) model.cross_section = make_cross_section(scene);
+  if (can_roll(scene.object)) {
+    model.cross_section = make_cross_section(scene);
+    model.roll_radius = model.cross_section->radius;
+  }
   if (const PrismShape* prism = lying_prism(scene.object.shape)) {
     model.prism = make_prism(*prism, model);
+    model.roll_radius = model.prism->circumference / (2.0 * kPi);
   }
   explain(scene, model);
   return model;
+}
+
+bool looks_alike(const LyingPrism& prism, double psi) noexcept {
+  constexpr double kSame = 1e-9;  // of the section's circumference
+  return is_same_section(prism.section, psi) &&
+         (rotated(psi, prism.com) - prism.com).norm() <= kSame * prism.circumference;
 }
 
 std::array<double, 2> jaw_forces(const Gripper& gripper, double w) {

@@ -14,6 +14,7 @@
 #include "mechanics/cross_section.h"
 #include "mechanics/limit_surface.h"
 #include "mechanics/planar_problem.h"
+#include "scene/constants.h"
 #include "scene/contact_region.h"
 #include "scene/outline.h"
 #include "scene/scene.h"
@@ -61,12 +62,17 @@ struct Decision {
 
 /// A prism that lies in the pad plane, between the jaws.
 struct LyingPrism {
-  std::vector<Vec2> section;  ///< [m] (lateral axis, z), convex, counter-clockwise
-  Vec2 com = Vec2::Zero();    ///< [m] centre of mass in the section
-  Vec2 axis = {1.0, 0.0};     ///< in the pad plane of O
-  Vec2 lateral = {0.0, 1.0};  ///< likewise
-  double length = 0.0;        ///< [m]
+  std::vector<Vec2> section;      ///< [m] (lateral axis, z), convex, counter-clockwise
+  Vec2 com = Vec2::Zero();        ///< [m] centre of mass in the section
+  Vec2 axis = {1.0, 0.0};         ///< in the pad plane of O
+  Vec2 lateral = {0.0, 1.0};      ///< likewise
+  double length = 0.0;            ///< [m]
+  double circumference = 0.0;     ///< [m] of the section
+  double same_after = 2.0 * kPi;  ///< [rad] least roll after which it looks alike
 };
+
+/// Rolled by psi [rad], section and centre of mass look as they do at 0.
+bool looks_alike(const LyingPrism& prism, double psi) noexcept;
 
 struct PrepareOptions {
   int points_per_pad = 16;  ///< quadrature of an unclipped pad: 1, 4, 8, 16, 32 or 64
@@ -110,8 +116,13 @@ struct Model {
   std::optional<CrossSectionModel> cross_section;
 
   /// Rolling over edges: section (scene/lying_prism.h), present for a prism that lies in
-  /// the pad plane. Its roll is no dimension of the planner's state.
+  /// the pad plane. Plans roll it by multiples of its `same_after` only.
   std::optional<LyingPrism> prism;
+
+  /// [m] that a support travels while the object rolls by a radian: the radius of a
+  /// cylinder; of a prism, over whole multiples of `same_after`, its circumference over a
+  /// turn. 0: nothing rolls it.
+  double roll_radius = 0.0;
 
   std::vector<Decision> decisions;
 
@@ -131,7 +142,8 @@ struct Model {
     return load_shifts_in_push || !contact.is_symmetric();
   }
 
-  /// Dimensions of the planner's state: 3 (x, y, theta), 4 with roll.
+  /// Dimensions of the planner's state: 3 (x, y, theta), 4 with roll. A prism rolls from
+  /// side to side, which is no dimension: everything else stays as it was.
   int state_dimensions() const { return cross_section ? 4 : 3; }
 };
 

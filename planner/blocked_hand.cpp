@@ -143,7 +143,7 @@ bool is_blocked_at_start(const Model& model) {
 bool is_blocked_at_goal(const Model& model) {
   const Goal& goal = *model.scene.goal;
   // A roll would end with the hand at another height.
-  if (!model.scene.obstacles || model.cross_section) return false;
+  if (!model.scene.obstacles || model.cross_section || goal.psi) return false;
   if (!goal.x || !goal.y || !goal.theta) return false;
   BlockedHand blocked(model);
   return blocked.blocks_all_contacts(

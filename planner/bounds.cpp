@@ -11,11 +11,11 @@
 #include "planner/planner.h"
 #include "planner/slab_travel.h"
 #include "planner/word_bound.h"
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kAccuracy = 1e-7;  // [m] of distances; they are rounded down
 
 /// Angles that a member of the goal set may have, near the angle of the start. Farther
@@ -181,9 +181,9 @@ double in_plane_bound(const Model& model, const GoalSet& set, double distance) {
 
 /// Least roll that the goal asks for [m] of the rolling surface.
 double roll_path(const Model& model, const Grasp& start, const Goal& goal) {
-  if (!goal.psi || !model.cross_section) return 0.0;
+  if (!goal.psi) return 0.0;
   const double off = std::abs(wrapped(*goal.psi - start.psi)) - angle_slack(goal);
-  return model.cross_section->radius * std::max(0.0, off);
+  return model.roll_radius * std::max(0.0, off);
 }
 
 double roll_cost(const Model& model, const Grasp& start, const Goal& goal) {

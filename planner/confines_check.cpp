@@ -116,6 +116,9 @@ class CollisionCheck {
   }
 
   std::string fault(const PlannedPush& planned) const {
+    if (model_.prism && rolls(planned) && !obstacles_.fixture.empty()) {
+      return "the way of a prism that rolls over its edges is not looked at";
+    }
     const PushContact& contact = contact_of(model_, planned);
     const PlanarPose X_WO = object_in_world(model_, planned);
     const Vec2 n = rotated(X_WO.theta, contact.n);

@@ -6,6 +6,7 @@
 #include "mechanics/pad_law.h"
 #include "planner/steering.h"
 #include "primitives/roll.h"
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
@@ -47,7 +48,6 @@ double least_drag(const Model& model) {
   if (model.has_soft_points()) return 1.0;
   constexpr int kAround = 96;
   constexpr int kUpright = 24;
-  constexpr double kPi = 3.141592653589793;
   const double off = 0.5 * kPi * std::hypot(2.0 / kAround, 0.5 / kUpright);
   const ContactPoints& pads = model.region.whole();
   double least = 1.0;
@@ -72,8 +72,23 @@ double least_drag(const Model& model) {
   return std::max(0.0, least);
 }
 
-/// One instant decides a roll (primitives/roll.h).
+/// What the support does to a prism that it rolls from side to side, whose weight comes
+/// to rest as high as it was: the mean traction of every two attitudes in a row.
+double work_of_prism_roll(const Model& model, const Grasp& start, const Roll& roll) {
+  std::vector<Sample> trace;
+  apply_roll(model, start, roll, {}, &trace);
+  double work = 0.0;
+  for (std::size_t i = 1; i < trace.size(); ++i) {
+    const double traction =
+        0.5 * (trace[i].tangential_force + trace[i - 1].tangential_force);
+    work += traction * (trace[i].s - trace[i - 1].s) * roll.travel;
+  }
+  return std::abs(work);
+}
+
+/// One instant decides a roll of a cylinder (primitives/roll.h).
 double work_of_roll(const Model& model, const Grasp& start, const Roll& roll) {
+  if (model.prism) return work_of_prism_roll(model, start, roll);
   if (!model.cross_section) return kNan;
   CrossSectionModel section = *model.cross_section;
   section.grip_force = grip_force_of(model, roll);
@@ -96,7 +111,8 @@ double longest_placement_length(const Model& model) noexcept {
   const CostWeights& price = *model.scene.cost;
   const bool alike = model.region.is_fixed_in_hand();
   double work = 0.0;
-  if (alike && price.work > 0.0 && model.c > 0.0 && !model.cross_section) {
+  const bool rolls = model.cross_section || (model.scene.goal && model.scene.goal->psi);
+  if (alike && price.work > 0.0 && model.c > 0.0 && !rolls) {
     double weakest = 1.0;
     for (const PushContact& contact : model.contacts) {
       weakest = std::min(weakest, contact.grip_share);

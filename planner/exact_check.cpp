@@ -13,6 +13,7 @@
 #include "planner/space_margin.h"
 #include "planner/spread_pads.h"
 #include "planner/steering.h"
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
@@ -87,7 +88,6 @@ double slack_of_disc(const Model& model, const PushContact& contact, const Insta
 /// from its pusher.
 double slack_by_point(const Model& model, const Grasp& start, const LinearPush& push,
                       int parts, const Margin& margin) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const PushContact& contact = model.contacts[static_cast<std::size_t>(push.contact)];
   std::vector<Sample> trace;
   if (!apply(model, start, push, {.max_step = 1.0 / parts}, &trace).completed()) {
@@ -139,7 +139,7 @@ int places_along(double travel, double turn) noexcept {
 double push_slack(const Model& model, const Grasp& start, const Push& push,
                   const Margin& margin) {
   if (const auto* roll = std::get_if<Roll>(&push))
-    return roll_slack(model, *roll, margin);
+    return roll_slack(model, start, *roll, margin);
   constexpr int kMostSpreadParts = 100;
   const LinearPush linear = as_linear(push);
   const PushContact& contact = model.contacts[linear.contact];

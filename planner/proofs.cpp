@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "mechanics/pad_law.h"
 #include "planner/barrier.h"
@@ -9,12 +8,11 @@
 #include "planner/planner.h"
 #include "planner/refuse.h"
 #include "planner/turn_proof.h"
+#include "scene/constants.h"
 #include "scene/pad_quadrature.h"
 
 namespace prehensile {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// Says why a proof fails; always false.
 bool refuse(std::string* why, const char* text) {
@@ -88,20 +86,32 @@ double falling_power(const Model& model, const PlanarPose& X_HO, const Vec2& g_O
          std::abs(twist[2]) * uncertain;
 }
 
-/// Whether a contact may roll the object with some grip: a line under a long side that
-/// carries weight. With a loose enough grip any friction of the support suffices.
-bool may_roll_on(const Model& model, const PushContact& contact) {
+/// The long axis of an object that may roll, in O.
+Vec2 rolling_axis(const Model& model) {
+  if (model.prism) return model.prism->axis;
   const auto& cylinder = std::get<CylinderShape>(model.scene.object.shape);
-  const Vec2 axis = cylinder.axis == Axis::kX ? Vec2{1.0, 0.0} : Vec2{0.0, 1.0};
-  return std::abs(axis.dot(contact.n)) < 1e-6 && !contact.is_point && contact.mu > 0.0 &&
-         contact.g_O.dot(contact.n) < 0.0;
+  return cylinder.axis == Axis::kX ? Vec2{1.0, 0.0} : Vec2{0.0, 1.0};
 }
 
+/// How far the goal is rolled from the start, beyond its tolerance; 0 or less: not at
+/// all.
+double roll_asked(const Model& model) {
+  const Goal& goal = *model.scene.goal;
+  return goal.psi ? std::abs(wrapped(*goal.psi - model.scene.start.psi)) -
+                        angle_tolerance(goal)
+                  : 0.0;
+}
+
+/// Whether a contact may roll the object with some grip: a line under a long side that
+/// carries weight. With a loose enough grip any friction of the support suffices to roll
+/// a cylinder. A prism is rolled where its goal asks for that.
 bool may_roll(const Model& model) {
-  return model.cross_section && std::any_of(model.contacts.begin(), model.contacts.end(),
-                                            [&](const PushContact& contact) {
-                                              return may_roll_on(model, contact);
-                                            });
+  if (!model.cross_section && !(model.prism && roll_asked(model) > 0.0)) return false;
+  const Vec2 axis = rolling_axis(model);
+  return std::ranges::any_of(model.contacts, [&](const PushContact& contact) {
+    return std::abs(axis.dot(contact.n)) < 1e-6 && !contact.is_point &&
+           contact.mu > 0.0 && contact.g_O.dot(contact.n) < 0.0;
+  });
 }
 
 bool verify_start_falls(const Model& model, const Proof& proof, std::string* why) {
@@ -171,10 +181,7 @@ bool verify_goal_beyond_limits(const Model& model, std::string* why) {
 }
 
 bool verify_no_roll(const Model& model, std::string* why) {
-  const Goal& goal = *model.scene.goal;
-  const double off =
-      goal.psi ? std::abs(wrapped(*goal.psi - model.scene.start.psi)) : 0.0;
-  if (off <= angle_tolerance(goal)) return refuse(why, "the goal asks for no roll");
+  if (roll_asked(model) <= 0.0) return refuse(why, "the goal asks for no roll");
   return !may_roll(model) || refuse(why, "a contact may roll the object");
 }
 

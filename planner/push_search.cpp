@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "planner/catalogue.h"
@@ -13,6 +12,7 @@
 #include "planner/plane_search.h"
 #include "planner/roll_step.h"
 #include "planner/walk_lattice.h"
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
@@ -105,21 +105,50 @@ bool rolls_on_way(const SearchModel& search, Plan plan, double dpsi,
   return insert_roll(*search.model, dpsi, search.margin, options.transition, plan);
 }
 
-/// Grasps at which the object can be rolled by dpsi: along the middle of a can, at angles
-/// all around; first those that are the shortest way from `start`.
-std::vector<Grasp> roll_places(const SearchModel& search, const Grasp& start, double dpsi,
-                               const PlanOptions& options) {
+/// Where the finger axis may be to roll the object, and how the hand may be turned: along
+/// the middle of a can; of a prism, whose pads have to be square to it, as high above its
+/// middle as pads go, too, because low jaws hold it upright.
+struct RollPlaces {
+  std::vector<Vec2> p_OF;
+  double first_angle = 0.0;  ///< [rad]
+  int angles = 0;            ///< all around
+};
+
+RollPlaces roll_places_on(const Model& model, const Grasp& start) {
   constexpr std::array kAlong = {0.0, 0.12, -0.12, 0.25, -0.25};  // of the length
-  constexpr int kAngles = 12;
-  const auto& can = std::get<CylinderShape>(search.model->scene.object.shape);
-  const Vec2 axis = can.axis == Axis::kX ? Vec2::UnitX() : Vec2::UnitY();
+  RollPlaces places{.first_angle = start.X_HO.theta, .angles = 12};
+  if (!model.prism) {
+    const auto& can = std::get<CylinderShape>(model.scene.object.shape);
+    const Vec2 axis = can.axis == Axis::kX ? Vec2::UnitX() : Vec2::UnitY();
+    for (const double share : kAlong) places.p_OF.push_back(share * can.length * axis);
+    return places;
+  }
+  constexpr std::array kAside = {0.9, -0.9, 0.75, -0.75, 0.6, -0.6, 0.4, -0.4};
+  const LyingPrism& prism = *model.prism;
+  double half_width = 0.0;
+  for (const Vec2& p : model.pad_face) {
+    half_width = std::max(half_width, std::abs(p.dot(prism.lateral)));
+  }
+  const double along = finger_in_object(start.X_HO).dot(prism.axis);
+  for (const double share : kAside) {
+    places.p_OF.push_back(along * prism.axis + share * half_width * prism.lateral);
+  }
+  places.first_angle = 0.0;
+  places.angles = 4;
+  return places;
+}
+
+/// Grasps at which the object can be rolled by dpsi, those that are the shortest way from
+/// `start` first.
+std::vector<Grasp> roll_grasps(const SearchModel& search, const Grasp& start, double dpsi,
+                               const PlanOptions& options) {
+  const RollPlaces places = roll_places_on(*search.model, start);
   std::vector<Grasp> grasps;
-  for (const double share : kAlong) {
-    for (int k = 0; k < kAngles; ++k) {
-      const double theta = start.X_HO.theta + 2.0 * std::numbers::pi * k / kAngles;
+  for (const Vec2& p_OF : places.p_OF) {
+    for (int k = 0; k < places.angles; ++k) {
+      const double theta = places.first_angle + 2.0 * kPi * k / places.angles;
       Plan still;
-      still.start = {pose_from_finger(share * can.length * axis, wrapped(theta)),
-                     start.psi};
+      still.start = {pose_from_finger(p_OF, wrapped(theta)), start.psi};
       if (rolls_on_way(search, still, dpsi, options)) grasps.push_back(still.start);
     }
   }
@@ -136,7 +165,7 @@ std::vector<Grasp> roll_places(const SearchModel& search, const Grasp& start, do
 void go_by_roll_place(const SearchModel& search, const Goal& planar, double dpsi,
                       const PlanOptions& options, Work& work, Plan& plan) {
   constexpr std::size_t kMostPlaces = 4;  // that are planned for
-  std::vector<Grasp> places = roll_places(search, plan.start, dpsi, options);
+  std::vector<Grasp> places = roll_grasps(search, plan.start, dpsi, options);
   if (places.size() > kMostPlaces) places.resize(kMostPlaces);
   for (const Grasp& place : places) {
     const PlanarPose& X_HO = place.X_HO;
@@ -183,7 +212,9 @@ void conclude_search(const SearchModel& search, const Goal& goal,
   if (dpsi != 0.0 &&
       !insert_roll(*search.model, dpsi, search.margin, options.transition, plan)) {
     plan.status = PlanStatus::kBudgetSpent;
-    plan.message = "no contact rolls the object at any pose of the plan";
+    plan.message = is_room_to_roll(*search.model)
+                       ? "no contact rolls the object at any pose of the plan"
+                       : "plans do not roll prisms among obstacles";
     plan.pushes.clear();
     return;
   }

@@ -9,6 +9,7 @@
 #include "planner/goal.h"
 #include "planner/holding.h"
 #include "planner/roll_step.h"
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
@@ -92,7 +93,6 @@ Grasp member_near(const Goal& goal, const Grasp& grasp) {
 }
 
 FlatBox box_around(const Model& model, const Grasp& start, const Goal& goal) {
-  constexpr double kPi = std::numbers::pi;
   const double theta = member_near(goal, start).X_HO.theta;
   FlatBox box{{model.pad_face.front(), std::min(start.X_HO.theta, theta) - kPi},
               {model.pad_face.front(), std::max(start.X_HO.theta, theta) + kPi}};
@@ -121,7 +121,7 @@ PushSteps::PushSteps(const SearchModel& search, const Goal& goal, Work& work,
                      ControlMeaning meaning)
     : search_(search), goal_(goal), work_(work), meaning_(meaning) {
   theta_scale_ = model().c > 0.0 ? model().c : 0.1 * model().L;
-  if (model().cross_section) psi_scale_ = model().cross_section->radius;
+  if (model().roll_radius > 0.0) psi_scale_ = model().roll_radius;
 }
 
 bool PushSteps::is_valid(const PushState& state) const noexcept {
@@ -382,7 +382,6 @@ int PushSteps::contact_that_moves(const FlatState& from, const FlatState& to,
 }
 
 std::optional<Roll> PushSteps::roll_to(const PushState& from, double psi) const {
-  if (!model().cross_section) return {};
   Plan plan;
   plan.start = grasp_of(from);
   if (!insert_roll(model(), psi - from.psi, search_.margin, {}, plan)) return {};

@@ -164,8 +164,7 @@ bool costs_are_right(const Model& model, const Plan& plan) {
   for (const PlannedPush& push : plan.pushes) {
     const Vec2 d = finger_in_object(push.end.X_HO) - finger_in_object(push.start.X_HO);
     const double turn = model.c * (push.end.X_HO.theta - push.start.X_HO.theta);
-    const double radius = model.cross_section ? model.cross_section->radius : 0.0;
-    const double roll = radius * (push.end.psi - push.start.psi);
+    const double roll = model.roll_radius * (push.end.psi - push.start.psi);
     travel += std::hypot(d.norm(), turn, roll);
   }
   const CostWeights price = prices(model);

@@ -3,18 +3,94 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <span>
+#include <vector>
 
 #include "primitives/roll.h"
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
 
-/// Grips that are tried, as the share of the weight that the fingers could carry.
+/// Grips that are tried, as the share of the weight that the fingers could carry. A prism
+/// wants one between the jaws' rubbing and its own weight.
 constexpr std::array<double, 6> kCarriedShares = {0.8, 0.6, 0.4, 0.2, 0.1, 0.05};
+constexpr std::array<double, 14> kCarriedSharesOfPrism = {
+    0.8, 0.6, 0.45, 0.34, 0.25, 0.19, 0.14, 0.11, 0.08, 0.06, 0.045, 0.034, 0.025, 0.019};
 
 double weight_on(const Model& model, const PushContact& contact) {
   return -model.mass * contact.g_O.dot(contact.n);
+}
+
+double cylinder_slack(const Model& model, const Roll& roll, const Margin& margin) {
+  CrossSectionModel section = *model.cross_section;
+  if (roll.grip_force > 0.0) section.grip_force = roll.grip_force;
+  section.grip_force *= 1.0 + margin.force;
+  const PushContact& contact = model.contacts[roll.contact];
+  const double weight = weight_on(model, contact);
+  if (!(weight > 0.0)) return -kInfinity;
+  const double carried = (section.friction[0] + section.friction[1]) * section.grip_force;
+  const double threshold = rolling_threshold(section, roll.travel, weight);
+  const double friction = contact.mu * (1.0 - margin.friction);
+  return std::min(friction - threshold, 1.0 - carried / weight);
+}
+
+/// Friction of the support above the steepest traction of a roll that is followed to its
+/// end; -infinity if that is not reached.
+double slack_of_followed(const Model& model, const Grasp& start, const Roll& roll) {
+  std::vector<Sample> trace;
+  const Transition done = apply(model, start, roll, {}, &trace);
+  if (!done.completed()) return -kInfinity;
+  double slack = kInfinity;
+  for (const Sample& sample : trace) {
+    slack = std::min(slack, model.contacts[roll.contact].mu -
+                                std::abs(sample.tangential_force) / sample.normal_force);
+  }
+  return slack;
+}
+
+/// Followed at the corners of the margin, too: the friction of the support, the height at
+/// which the fingers hold the object, and weight over friction of the fingers, half of
+/// which their grip is off and half their friction. No law tells where between them a
+/// roll ends: a sample, as for pushes in space.
+double prism_slack(const Model& model, const Grasp& start, const Roll& roll,
+                   const Margin& margin) {
+  constexpr int kCorners = 16;
+  double slack = slack_of_followed(model, start, roll);
+  if (margin.is_none()) return slack;
+  const double grip =
+      roll.grip_force > 0.0 ? roll.grip_force : model.scene.gripper.grip_force;
+  const PushContact& contact = model.contacts[roll.contact];
+  const Vec2 up = rotated(start.X_HO.theta, contact.n);
+  Model corner = model;
+  for (int i = 0; i < kCorners && slack >= 0.0; ++i) {
+    const auto off = [&](int bit, double width) { return i >> bit & 1 ? width : -width; };
+    corner.contacts[roll.contact].mu = contact.mu * (1.0 + off(0, margin.friction));
+    for (int jaw = 0; jaw < 2; ++jaw) {
+      corner.scene.gripper.friction[jaw] =
+          model.scene.gripper.friction[jaw] * (1.0 + off(1, 0.5 * margin.force));
+    }
+    Roll other = roll;
+    other.grip_force = grip * (1.0 + off(2, 0.5 * margin.force));
+    Grasp from = start;
+    from.X_HO.x += off(3, margin.grasp) * up.x();
+    from.X_HO.y += off(3, margin.grasp) * up.y();
+    slack = std::min(slack, slack_of_followed(corner, from, other));
+  }
+  return slack;
+}
+
+/// Travel of the support for a roll by dpsi [m]; NaN if this contact cannot roll the
+/// object there, or plans do not roll it so far.
+double travel_of(const Model& model, int contact, const Grasp& grasp, double dpsi) {
+  if (!model.prism) {
+    const RollSection section = roll_section(model, contact, grasp);
+    return section.possible ? dpsi / section.psi_per_travel : kNan;
+  }
+  if (!looks_alike(*model.prism, grasp.psi + dpsi) || !is_room_to_roll(model))
+    return kNan;
+  const double way = model.contacts[contact].t.dot(model.prism->axis);
+  return std::copysign(dpsi * model.roll_radius, dpsi * way);
 }
 
 /// The roll of this contact at a grasp, with the tightest grip within the margin; false
@@ -22,20 +98,23 @@ double weight_on(const Model& model, const PushContact& contact) {
 bool make_roll(const Model& model, int contact, const Grasp& grasp, double dpsi,
                const Margin& margin, const TransitionOptions& options,
                PlannedPush& planned) {
-  const RollSection section = roll_section(model, contact, grasp);
-  if (!section.possible) return false;
-  const CrossSectionModel& constants = *model.cross_section;
-  Roll roll{.contact = contact, .travel = dpsi / section.psi_per_travel};
-  const double friction = constants.friction[0] + constants.friction[1];
-  for (const double share : kCarriedShares) {
-    if (roll_slack(model, roll, margin) >= 0.0) break;
-    roll.grip_force = friction > 0.0 ? share * section.weight / friction : 0.0;
+  Roll roll{.contact = contact, .travel = travel_of(model, contact, grasp, dpsi)};
+  if (!std::isfinite(roll.travel)) return false;
+  const double weight = weight_on(model, model.contacts[contact]);
+  const auto& mu = model.scene.gripper.friction;
+  const auto shares = model.prism ? std::span<const double>(kCarriedSharesOfPrism)
+                                  : std::span<const double>(kCarriedShares);
+  double slack = roll_slack(model, grasp, roll, margin);
+  for (const double share : shares) {
+    if (slack >= 0.0 || !(weight > 0.0)) break;
+    roll.grip_force = mu[0] + mu[1] > 0.0 ? share * weight / (mu[0] + mu[1]) : 0.0;
+    slack = roll_slack(model, grasp, roll, margin);
   }
-  if (roll_slack(model, roll, margin) < 0.0) return false;
+  if (slack < 0.0) return false;
   const Transition rolled = apply(model, grasp, roll, options);
   planned.push = roll;
   planned.start = grasp;
-  planned.end = rolled.end;
+  planned.end = {grasp.X_HO, rolled.end.psi};  // O of a prism has risen and sunk again
   return rolled.completed();
 }
 
@@ -65,18 +144,14 @@ bool make_roll(const Model& model, const Grasp& grasp, double dpsi, const Margin
 
 }  // namespace
 
-double roll_slack(const Model& model, const Roll& roll, const Margin& margin) {
-  if (!model.cross_section) return -std::numeric_limits<double>::infinity();
-  CrossSectionModel section = *model.cross_section;
-  if (roll.grip_force > 0.0) section.grip_force = roll.grip_force;
-  section.grip_force *= 1.0 + margin.force;
-  const PushContact& contact = model.contacts[roll.contact];
-  const double weight = weight_on(model, contact);
-  if (!(weight > 0.0)) return -std::numeric_limits<double>::infinity();
-  const double carried = (section.friction[0] + section.friction[1]) * section.grip_force;
-  const double threshold = rolling_threshold(section, roll.travel, weight);
-  const double friction = contact.mu * (1.0 - margin.friction);
-  return std::min(friction - threshold, 1.0 - carried / weight);
+double roll_slack(const Model& model, const Grasp& start, const Roll& roll,
+                  const Margin& margin) {
+  if (model.prism) return prism_slack(model, start, roll, margin);
+  return model.cross_section ? cylinder_slack(model, roll, margin) : -kInfinity;
+}
+
+bool is_room_to_roll(const Model& model) {
+  return !model.prism || !model.scene.obstacles || model.scene.obstacles->fixture.empty();
 }
 
 bool insert_roll(const Model& model, double dpsi, const Margin& margin,

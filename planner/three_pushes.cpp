@@ -124,7 +124,7 @@ class ThreePushes {
 bool improve_by_three_pushes(const SearchModel& search, const Limits& limits, Work& work,
                              Plan& plan) {
   const Model& model = *search.model;
-  if (can_roll(model.scene.object) || plan.pushes.empty()) return false;
+  if (can_roll(model.scene.object) || plan.rolls() || plan.pushes.empty()) return false;
   const Goal goal = planar_goal(goal_within_limits(model.scene));
   account(model, plan);
   if (plan.cost <= kGoodEnough * guide_bound(model, plan.start, goal)) return false;

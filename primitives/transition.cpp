@@ -38,7 +38,7 @@ std::string_view refusal(const Model& model, const Grasp& start, const LinearPus
   if (!(guard.angle > 0.0 && guard.distance > 0.0)) return "the guard is not positive";
   if (std::abs(push.e.norm() - 1.0) > 1e-9) return "the direction is not a unit vector";
   if (push.travel == 0.0 && push.turn == 0.0) return "the pusher does not move";
-  if (model.prism && !is_same_section(model.prism->section, start.psi)) {
+  if (model.prism && !looks_alike(*model.prism, start.psi)) {
     return "the prism has rolled to an attitude for which its sides in the pad plane are "
            "not known";
   }

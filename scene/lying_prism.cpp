@@ -1,8 +1,8 @@
 #include "scene/lying_prism.h"
 
 #include <algorithm>
-#include <limits>
 
+#include "scene/constants.h"
 #include "scene/outline.h"
 
 namespace prehensile {
@@ -24,7 +24,6 @@ const PrismShape* lying_prism(const Shape& shape) {
 }
 
 SectionExtent extent_of(const std::vector<Vec2>& section) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   SectionExtent extent{kInfinity,  -kInfinity, kInfinity,
                        -kInfinity, kInfinity,  -kInfinity};
   for (const Vec2& v : section) {
@@ -93,6 +92,14 @@ bool is_same_section(const std::vector<Vec2>& section, double roll) noexcept {
     return std::any_of(section.begin(), section.end(),
                        [&](const Vec2& w) { return (turned - w).norm() <= tolerance; });
   });
+}
+
+double symmetry_angle(const std::vector<Vec2>& section) noexcept {
+  for (std::size_t times = section.size(); times > 1; --times) {
+    const double turn = 2.0 * kPi / static_cast<double>(times);
+    if (is_same_section(section, turn)) return turn;
+  }
+  return 2.0 * kPi;
 }
 
 }  // namespace prehensile

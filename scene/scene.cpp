@@ -8,6 +8,7 @@
 #include <Eigen/Cholesky>
 
 #include "scene/checker.h"
+#include "scene/constants.h"
 #include "scene/contact_region.h"
 #include "scene/lying_prism.h"
 #include "scene/outline.h"
@@ -257,7 +258,24 @@ void check_pose(Checker& checker, const std::string& path, const Grasp& grasp) {
   checker.angle(path + ".roll_deg", grasp.psi);
 }
 
-void check_goal(Checker& checker, const Goal& goal, bool rolls) {
+/// A prism is planned to roll from side to side, to where it looks as it did.
+void check_roll_goal(Checker& checker, const Object& object, double psi) {
+  if (can_roll(object)) return;
+  const PrismShape* prism = lying_prism(object.shape);
+  if (!prism) {
+    checker.fault("goal.roll_deg",
+                  "the object cannot roll: expected only for a cylinder held on its "
+                  "curved side, and for a prism along x or y");
+  } else if (!is_same_section(prism->outline, psi)) {
+    const double turn = symmetry_angle(prism->outline);
+    checker.fault("goal.roll_deg",
+                  "the section looks different there: expected a "
+                  "multiple of " +
+                      text(turn * 180.0 / kPi) + " deg");
+  }
+}
+
+void check_goal(Checker& checker, const Goal& goal, const Object& object) {
   if (!goal.x && !goal.y && !goal.theta && !goal.psi) {
     checker.fault("goal",
                   "no coordinate: expected at least one of x, y, theta_deg, roll_deg");
@@ -265,11 +283,7 @@ void check_goal(Checker& checker, const Goal& goal, bool rolls) {
   const Grasp pose{{goal.x.value_or(0.0), goal.y.value_or(0.0), goal.theta.value_or(0.0)},
                    goal.psi.value_or(0.0)};
   check_pose(checker, "goal", pose);
-  if (goal.psi && !rolls) {
-    checker.fault(
-        "goal.roll_deg",
-        "the object cannot roll: expected only for a cylinder held on its curved side");
-  }
+  if (goal.psi) check_roll_goal(checker, object, *goal.psi);
   checker.in_range("goal.tolerance.position", goal.position_tolerance, 1e-9, 1.0, "m");
   checker.in_range("goal.tolerance.angle_deg", goal.angle_tolerance, 1e-9, 4.0, "rad");
   checker.in_range("goal.characteristic_length", goal.characteristic_length, 1e-9,
@@ -354,7 +368,7 @@ std::vector<Fault> check(const Scene& scene) {
         "start.roll_deg",
         "the object cannot roll: expected only for a cylinder held on its curved side");
   }
-  if (scene.goal) check_goal(checker, *scene.goal, rolls);
+  if (scene.goal) check_goal(checker, *scene.goal, scene.object);
   if (scene.calibration) check_calibration(checker, *scene.calibration);
   if (scene.uncertainty) {
     for (const UncertaintyWidth& w : widths_of(*scene.uncertainty)) {

@@ -8,6 +8,7 @@
 #include "planner/ompl/seeded_run.h"
 #include "planner/ompl/solution.h"
 #include "planner/ompl/stock_planners.h"
+#include "planner/push_search.h"
 
 namespace prehensile {
 namespace {
@@ -177,6 +178,22 @@ Plan run_stock(const SearchModel& search, const Grasp& start, const Goal& goal,
   return plan;
 }
 
+/// A prism rolls from side to side: no coordinate to sample, but one push more, for a
+/// plan in the pad plane.
+Plan run_stock_and_roll(const SearchModel& search, const Grasp& start, const Goal& goal,
+                        const PlanOptions& options, Work& work) {
+  if (!search.model->prism || roll_needed(goal, start.psi) == 0.0) {
+    return run_stock(search, start, goal, options, work);
+  }
+  Plan plan = run_stock(search, start, planar_goal(goal), options, work);
+  if (plan.status == PlanStatus::kReachedGoal ||
+      plan.status == PlanStatus::kNothingToDo) {
+    plan.message.clear();
+    conclude_search(search, goal, options, true, Limits(options, work), plan);
+  }
+  return plan;
+}
+
 }  // namespace
 
 bool frame_is_built() { return true; }
@@ -192,7 +209,7 @@ std::vector<std::string> frame_planners() {
 Plan solve_in_frame(const SearchModel& search, const Grasp& start, const Goal& goal,
                     const PlanOptions& options, Work& work) {
   return options.planner == kOwn ? run_own(search, start, goal, options, work)
-                                 : run_stock(search, start, goal, options, work);
+                                 : run_stock_and_roll(search, start, goal, options, work);
 }
 
 }  // namespace prehensile

@@ -13,7 +13,7 @@
 namespace prehensile {
 namespace {
 
-using testing::kUnlimited;
+using testing::kNoBudget;
 
 std::vector<std::string> stock_planners() {
   std::vector<std::string> names = frame_planners();
@@ -156,13 +156,13 @@ TEST(OmplFrame, StopFlagAndTimeLimitEndAnySearch) {
   const SearchModel search = prepare_search(model, Margin{});
   const std::atomic<bool> stop = true;
   for (const std::string& planner : frame_planners()) {
-    Work work{.budget = kUnlimited};
+    Work work{.budget = kNoBudget};
     const Plan stopped = solve_in_frame(search, scene.start, *scene.goal,
                                         {.planner = planner, .stop = &stop}, work);
     EXPECT_EQ(stopped.status, PlanStatus::kStopped) << planner;
   }
   for (const std::string& planner : stock_planners()) {
-    Work work{.budget = kUnlimited};
+    Work work{.budget = kNoBudget};
     const Plan late = solve_in_frame(search, scene.start, *scene.goal,
                                      {.planner = planner, .time_limit = 0.02}, work);
     EXPECT_EQ(late.status, PlanStatus::kBudgetSpent) << planner;
@@ -217,19 +217,23 @@ TEST(OmplFrame, OtherPadsAndPushersAreServed) {
 }
 
 TEST(OmplFrame, RollsAreStepsOfTheirOwn) {
-  Scene scene = testing::can_scene();
-  scene.goal = Goal{.x = 0.01, .psi = 0.7};
-  for (const std::string& planner : steering_planners()) {
-    const Outcome outcome = solve(scene, planner, kBudgetOfPads);
-    expect_chain_of_pushes(outcome);
-    int rolls = 0;
-    for (const PlannedPush& planned : outcome.plan.pushes) {
-      const bool rolls_here = std::holds_alternative<Roll>(planned.push);
-      rolls += rolls_here;
-      EXPECT_EQ(planned.start.psi != planned.end.psi, rolls_here) << planner;
-      EXPECT_EQ(planned.start.X_HO == planned.end.X_HO, rolls_here) << planner;
+  Scene can = testing::can_scene();
+  can.goal = Goal{.x = 0.01, .psi = 0.7};
+  Scene bar = testing::bar_on_sheet();
+  bar.goal = Goal{.y = -0.008, .psi = 0.5 * std::numbers::pi};
+  for (const Scene& scene : {can, bar}) {
+    for (const std::string& planner : steering_planners()) {
+      const Outcome outcome = solve(scene, planner, kBudgetOfPads);
+      expect_chain_of_pushes(outcome);
+      int rolls = 0;
+      for (const PlannedPush& planned : outcome.plan.pushes) {
+        const bool rolls_here = std::holds_alternative<Roll>(planned.push);
+        rolls += rolls_here;
+        EXPECT_EQ(planned.start.psi != planned.end.psi, rolls_here) << planner;
+        EXPECT_EQ(planned.start.X_HO == planned.end.X_HO, rolls_here) << planner;
+      }
+      EXPECT_GE(rolls, 1) << planner;
     }
-    EXPECT_GE(rolls, 1) << planner;
   }
 }
 

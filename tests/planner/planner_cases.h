@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -18,10 +17,10 @@
 #include "problems/published_regrasps.h"
 #include "problems/random_fixtures.h"
 #include "problems/random_regrasps.h"
+#include "scene/constants.h"
+#include "tests/planner/no_budget.h"
 
 namespace prehensile::testing {
-
-inline constexpr std::int64_t kNoBudget = std::numeric_limits<std::int64_t>::max();
 
 /// A published square, whose goal a test may replace.
 inline Scene walled_square() {
@@ -38,6 +37,40 @@ inline Goal goal_at(const Vec2& p_OF, double theta) {
   goal.y = X_HO.y;
   goal.theta = X_HO.theta;
   return goal;
+}
+
+/// A square bar on a sheet, held above its middle by low pads.
+inline Scene bar_on_sheet() {
+  Scene scene;
+  scene.object.shape =
+      PrismShape{{{-0.015, -0.015}, {0.015, -0.015}, {0.015, 0.015}, {-0.015, 0.015}},
+                 0.1,
+                 Axis::kX};
+  scene.object.mass = 0.25;
+  scene.gripper.pad = RectanglePad{{0.03, 0.002}};
+  scene.gripper.friction = {0.05, 0.05};
+  scene.gripper.grip_force = 60.0;
+  scene.pushers = {{.name = "sheet",
+                    .feature = PlaneFeature{},
+                    .friction = 1.2,
+                    .normal_angle = 0.5 * kPi,
+                    .faces = {"-y"}}};
+  scene.start.X_HO = {0.0, -0.011, 0.0};
+  return scene;
+}
+
+/// Among walls at its ends, with a goal on its next side.
+inline Scene bar_among_walls() {
+  Scene scene = bar_on_sheet();
+  for (const double angle : {0.0, kPi}) {
+    scene.pushers.push_back({.name = "wall" + std::to_string(scene.pushers.size()),
+                             .feature = PlaneFeature{},
+                             .friction = 0.9,
+                             .normal_angle = angle});
+  }
+  scene.goal = goal_at({-0.01, 0.008}, 0.0);
+  scene.goal->psi = 0.5 * kPi;
+  return scene;
 }
 
 /// A random polygon with so many walls beside it, and a goal anywhere.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/refuse.h"
+#include "scene/constants.h"
 #include "tests/planner/planner_cases.h"
 #include "tests/support/random.h"
 
@@ -12,8 +13,6 @@ namespace {
 using testing::goal_at;
 using testing::Random;
 using testing::walled_square;
-
-constexpr double kPi = std::numbers::pi;
 
 /// Plans the scene and checks the refusal; the proof of another kind must not pass.
 void expect_refusal(const Scene& scene, Proof::Kind kind) {
@@ -139,6 +138,26 @@ TEST(Proofs, NoRoll) {
                            .friction = 0.8,
                            .normal_angle = 0.5 * kPi});
   std::string why;
+  EXPECT_FALSE(verify(prepare(scene), proof, &why));
+}
+
+/// A bar that lies in the hand, with walls at its ends, and a goal on its next side.
+TEST(Proofs, NoRollOfAPrism) {
+  Scene scene = can_among_ends();
+  scene.object.shape = PrismShape{
+      {{-0.02, -0.02}, {0.02, -0.02}, {0.02, 0.02}, {-0.02, 0.02}}, 0.1, Axis::kX};
+  scene.goal->psi = 0.5 * kPi;
+  const Proof proof = find_proof(prepare(scene));
+  EXPECT_EQ(proof.kind, Proof::Kind::kNoRoll);
+  std::string why;
+  EXPECT_TRUE(verify(prepare(scene), proof, &why)) << why;
+  scene.pushers.push_back({.name = "floor",
+                           .feature = LineFeature{},
+                           .friction = 0.8,
+                           .normal_angle = 0.5 * kPi});
+  EXPECT_FALSE(verify(prepare(scene), proof, &why));
+  scene.goal->psi = 0.0;
+  scene.pushers.pop_back();
   EXPECT_FALSE(verify(prepare(scene), proof, &why));
 }
 

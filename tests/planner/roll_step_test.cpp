@@ -4,14 +4,17 @@
 
 #include <gtest/gtest.h>
 
+#include "planner/plan_trial.h"
 #include "planner/planner.h"
 #include "planner/replay.h"
+#include "scene/constants.h"
 #include "tests/planner/planner_cases.h"
 #include "tests/support/random.h"
 
 namespace prehensile {
 namespace {
 
+using testing::bar_on_sheet;
 using testing::Random;
 
 Scene can_on_floor() {
@@ -42,11 +45,11 @@ TEST(RollStep, SlackTellsWhichRollsComplete) {
     const Roll roll{.contact = 0,
                     .travel = random.chance(0.5) ? 0.01 : -0.01,
                     .grip_force = random.log_in(0.01, 20.0)};
-    const double slack = roll_slack(model, roll, Margin::none());
+    const double slack = roll_slack(model, scene.start, roll, Margin::none());
     if (std::abs(slack) < 1e-6) continue;
     EXPECT_EQ(apply(model, scene.start, roll).completed(), slack > 0.0) << i;
     (slack > 0.0 ? rolls : refused) += 1;
-    EXPECT_LE(roll_slack(model, roll, Margin{}), slack);
+    EXPECT_LE(roll_slack(model, scene.start, roll, Margin{}), slack);
   }
   EXPECT_GT(rolls, 200);
   EXPECT_GT(refused, 200);
@@ -113,6 +116,110 @@ TEST(RollStep, NoRollWithoutASupport) {
   plan.start = scene.start;
   EXPECT_FALSE(insert_roll(prepare(scene), 1.0, Margin{}, {}, plan));
   EXPECT_TRUE(plan.pushes.empty());
+}
+
+Plan plan_at(const Scene& scene) {
+  Plan plan;
+  plan.start = scene.start;
+  return plan;
+}
+
+/// Only over whole sides: it stands elsewhere in the hand in between. The support goes as
+/// far as the sides are long, which the bound counts on.
+TEST(RollStep, PrismsRollFromSideToSide) {
+  const Scene scene = bar_on_sheet();
+  const Model model = prepare(scene);
+  for (const int sides : {-2, -1, 1, 2}) {
+    Plan plan = plan_at(scene);
+    ASSERT_TRUE(insert_roll(model, 0.5 * kPi * sides, Margin{}, {}, plan)) << sides;
+    const Grasp& end = plan.pushes[0].end;
+    EXPECT_NEAR(end.psi, 0.5 * kPi * sides, 1e-9);
+    EXPECT_NEAR(end.X_HO.x, scene.start.X_HO.x, 1e-12);
+    EXPECT_NEAR(end.X_HO.y, scene.start.X_HO.y, 1e-12);
+    EXPECT_EQ(end.X_HO.theta, scene.start.X_HO.theta);
+    const Roll& roll = std::get<Roll>(plan.pushes[0].push);
+    EXPECT_NEAR(std::abs(roll.travel), 0.03 * std::abs(sides), 1e-12);
+    EXPECT_NEAR(std::abs(roll.travel), model.roll_radius * std::abs(end.psi), 1e-12);
+    EXPECT_GT(roll.grip_force, 0.0);
+    EXPECT_LT(roll.grip_force, 60.0);
+  }
+  for (const double dpsi : {0.3, 0.25 * kPi, 0.6 * kPi}) {
+    Plan plan = plan_at(scene);
+    EXPECT_FALSE(insert_roll(model, dpsi, Margin{}, {}, plan)) << dpsi;
+    EXPECT_TRUE(plan.pushes.empty());
+  }
+}
+
+/// Whose centre of mass lies beside its middle looks different on another side.
+TEST(RollStep, ALopsidedPrismRollsNotAtAll) {
+  Scene scene = bar_on_sheet();
+  scene.object.p_OCom = {0.0, 0.001};
+  Plan plan = plan_at(scene);
+  EXPECT_FALSE(insert_roll(prepare(scene), 0.5 * kPi, Margin::none(), {}, plan));
+}
+
+/// Whatever the margin is, all its corners were followed: so are members of the usual
+/// box.
+TEST(RollStep, RolledPrismsRollInTheUsualBox) {
+  const Scene scene = testing::bar_among_walls();
+  const Model model = prepare(scene);
+  const Plan plan = plan_regrasp(model);
+  ASSERT_EQ(plan.status, PlanStatus::kReachedGoal) << plan.message;
+  ASSERT_FALSE(plan.margin.is_none());
+  EXPECT_TRUE(plan.rolls());
+  EXPECT_TRUE(reaches(*scene.goal, plan.goal));
+  EXPECT_LE(plan.lower_bound, plan.cost);
+  EXPECT_GE(plan.lower_bound, 2.0 + 0.03 / model.L - 1e-9);
+  EXPECT_TRUE(replay(model, plan).agrees);
+  const UncertaintyBox box = usual_box();
+  for (std::uint64_t i = 0; i < 100; ++i) {
+    const PlanTrial trial = try_plan(model, plan, box, random_point(1, i));
+    EXPECT_TRUE(trial.sticks) << i << ": " << name(trial.status);
+  }
+}
+
+TEST(RollStep, BaselinesRollPrismsToo) {
+  const Model model = prepare(testing::bar_among_walls());
+  for (const char* planner : {"motion-cone-tree", "random-shooting", "two-trees"}) {
+    const Plan plan = plan_regrasp(model, {.planner = planner, .budget = 100'000});
+    ASSERT_EQ(plan.status, PlanStatus::kReachedGoal) << planner << ": " << plan.message;
+    EXPECT_TRUE(plan.rolls()) << planner;
+    EXPECT_TRUE(replay(model, plan).agrees) << planner;
+  }
+}
+
+/// A can whose plan rolls it does so whatever is off by as much as usual.
+TEST(RollStep, RolledCansRollInTheUsualBox) {
+  Scene scene = can_on_floor();
+  scene.goal.emplace();
+  scene.goal->psi = 1.5;
+  const Model model = prepare(scene);
+  const Plan plan = plan_regrasp(model);
+  ASSERT_EQ(plan.status, PlanStatus::kReachedGoal) << plan.message;
+  UncertaintyBox box = usual_box();
+  const Grasp end = try_plan(model, plan, box, BoxPoint{}).end;
+  for (std::uint64_t i = 0; i < 100; ++i) {
+    const BoxPoint at = random_point(1, i);
+    const PlanTrial trial = try_plan(model, plan, box, at);
+    EXPECT_TRUE(trial.sticks) << i << ": " << name(trial.status);
+    // The angle by which the can is off in the hand stays.
+    const double off = at[static_cast<std::size_t>(Unknown::kGraspAngle)];
+    EXPECT_NEAR(trial.end.X_HO.theta - end.X_HO.theta, off * box[Unknown::kGraspAngle],
+                1e-9);
+  }
+}
+
+TEST(RollStep, PrismsAreNotRolledAmongObstacles) {
+  Scene scene = bar_on_sheet();
+  scene.goal = testing::goal_at({0.0, 0.008}, 0.0);
+  scene.goal->psi = 0.5 * kPi;
+  scene.obstacles.emplace();
+  EXPECT_EQ(plan_regrasp(prepare(scene)).status, PlanStatus::kReachedGoal);
+  scene.obstacles->fixture = {{.name = "post", .shape = SphereShape{0.01}}};
+  scene.obstacles->fixture[0].position = {0.5, 0.5, 0.0};
+  const Plan plan = plan_regrasp(prepare(scene));
+  EXPECT_EQ(plan.status, PlanStatus::kBudgetSpent);
+  EXPECT_NE(plan.message.find("among obstacles"), std::string::npos) << plan.message;
 }
 
 }  // namespace

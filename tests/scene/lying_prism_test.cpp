@@ -77,6 +77,34 @@ TEST(LyingPrism, ASquareLooksTheSameAfterAQuarterTurn) {
       {-0.03, -0.02}, {0.03, -0.02}, {0.03, 0.02}, {-0.03, 0.02}};
   EXPECT_FALSE(is_same_section(flat, quarter));
   EXPECT_TRUE(is_same_section(flat, 2.0 * quarter));
+  for (const int sides : {3, 4, 6, 12}) {
+    const std::vector<Vec2> section = regular_section(sides, 0.02);
+    EXPECT_NEAR(symmetry_angle(section), 4.0 * quarter / sides, 1e-12) << sides;
+  }
+  EXPECT_NEAR(symmetry_angle(flat), 2.0 * quarter, 1e-12);
+  const std::vector<Vec2> beside = {
+      {-0.03, -0.02}, {0.02, -0.02}, {0.02, 0.02}, {-0.03, 0.02}};
+  EXPECT_NEAR(symmetry_angle(beside), 4.0 * quarter, 1e-12);
+}
+
+/// Plans roll a prism to where it looks as it did; other goals are refused by name.
+TEST(LyingPrism, GoalsAreAttitudesThatLookAlike) {
+  Scene scene;
+  scene.object.shape = PrismShape{regular_section(6, 0.02), 0.1, Axis::kX};
+  scene.object.mass = 0.1;
+  scene.gripper.pad = RectanglePad{{0.03, 0.002}};
+  scene.gripper.friction = {0.5, 0.5};
+  scene.gripper.grip_force = 20.0;
+  scene.goal.emplace();
+  for (const double sides : {-4.0, 1.0, 7.0}) {
+    scene.goal->psi = sides * std::numbers::pi / 3.0;
+    EXPECT_TRUE(check(scene).empty()) << sides;
+  }
+  scene.goal->psi = 0.5 * std::numbers::pi;
+  const std::vector<Fault> faults = check(scene);
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0].field, "goal.roll_deg");
+  EXPECT_NE(faults[0].what.find("multiple of 60"), std::string::npos) << faults[0].what;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "planner/catalogue.h"
@@ -138,26 +139,62 @@ RollPlaces roll_places_on(const Model& model, const Grasp& start) {
   return places;
 }
 
-/// Grasps at which the object can be rolled by dpsi, those that are the shortest way from
-/// `start` first.
-std::vector<Grasp> roll_grasps(const SearchModel& search, const Grasp& start, double dpsi,
-                               const PlanOptions& options) {
-  const RollPlaces places = roll_places_on(*search.model, start);
+constexpr double kSameAngle = 1e-9;  // [rad]
+constexpr double kSamePlace = 1e-9;  // [m]
+
+/// Grasps to try a roll at, those that are the shortest way from `start` first.
+std::vector<Grasp> grasps_to_roll_at(const Model& model, const Grasp& start) {
+  const RollPlaces places = roll_places_on(model, start);
   std::vector<Grasp> grasps;
   for (const Vec2& p_OF : places.p_OF) {
     for (int k = 0; k < places.angles; ++k) {
       const double theta = places.first_angle + 2.0 * kPi * k / places.angles;
-      Plan still;
-      still.start = {pose_from_finger(p_OF, wrapped(theta)), start.psi};
-      if (rolls_on_way(search, still, dpsi, options)) grasps.push_back(still.start);
+      grasps.push_back({pose_from_finger(p_OF, wrapped(theta)), start.psi});
     }
   }
   const auto way = [&](const Grasp& grasp) {
-    return flat_distance(*search.model, flat_state(start), flat_state(grasp));
+    return flat_distance(model, flat_state(start), flat_state(grasp));
   };
   std::stable_sort(grasps.begin(), grasps.end(),
                    [&](const Grasp& a, const Grasp& b) { return way(a) < way(b); });
   return grasps;
+}
+
+/// The first of them, up to `most`, at which the object can be rolled by dpsi. Pads that
+/// are turned by half a turn hold a prism as they did: what is known then is not asked.
+std::vector<Grasp> roll_grasps(const SearchModel& search, const Grasp& start, double dpsi,
+                               const PlanOptions& options, std::size_t most) {
+  std::vector<Grasp> rolling;
+  std::vector<Grasp> failing;
+  for (const Grasp& grasp : grasps_to_roll_at(*search.model, start)) {
+    if (rolling.size() == most) break;
+    const auto holds_alike = [&](const Grasp& other) {
+      const double turn = std::remainder(grasp.X_HO.theta - other.X_HO.theta, kPi);
+      return search.model->prism && std::abs(turn) < kSameAngle &&
+             (flat_state(grasp).p_OF - flat_state(other).p_OF).norm() < kSamePlace;
+    };
+    if (std::ranges::any_of(failing, holds_alike)) continue;
+    Plan still;
+    still.start = grasp;
+    (rolls_on_way(search, still, dpsi, options) ? rolling : failing).push_back(grasp);
+  }
+  return rolling;
+}
+
+/// Of a prism, which few grasps let roll at all: then no way in the plane helps.
+bool rolls_nowhere(const SearchModel& search, const Grasp& start, double dpsi,
+                   const PlanOptions& options) {
+  if (!search.model->prism || dpsi == 0.0) return false;
+  return !rolls_on_way(search, blank_plan(search, start, options), dpsi, options) &&
+         roll_grasps(search, start, dpsi, options, 1).empty();
+}
+
+void say_no_roll(const SearchModel& search, const char* where, Plan& plan) {
+  plan.status = PlanStatus::kBudgetSpent;
+  plan.message = is_room_to_roll(*search.model)
+                     ? std::string("no contact rolls the object ") + where
+                     : "plans do not roll prisms among obstacles";
+  plan.pushes.clear();
 }
 
 /// A way over a place where the object can be rolled; the plan stays as it is where none
@@ -165,9 +202,7 @@ std::vector<Grasp> roll_grasps(const SearchModel& search, const Grasp& start, do
 void go_by_roll_place(const SearchModel& search, const Goal& planar, double dpsi,
                       const PlanOptions& options, Work& work, Plan& plan) {
   constexpr std::size_t kMostPlaces = 4;  // that are planned for
-  std::vector<Grasp> places = roll_grasps(search, plan.start, dpsi, options);
-  if (places.size() > kMostPlaces) places.resize(kMostPlaces);
-  for (const Grasp& place : places) {
+  for (const Grasp& place : roll_grasps(search, plan.start, dpsi, options, kMostPlaces)) {
     const PlanarPose& X_HO = place.X_HO;
     Goal there = planar;
     there.x = X_HO.x;
@@ -211,12 +246,7 @@ void conclude_search(const SearchModel& search, const Goal& goal,
   const double dpsi = roll_needed(goal, plan.start.psi);
   if (dpsi != 0.0 &&
       !insert_roll(*search.model, dpsi, search.margin, options.transition, plan)) {
-    plan.status = PlanStatus::kBudgetSpent;
-    plan.message = is_room_to_roll(*search.model)
-                       ? "no contact rolls the object at any pose of the plan"
-                       : "plans do not roll prisms among obstacles";
-    plan.pushes.clear();
-    return;
+    return say_no_roll(search, "at any pose of the plan", plan);
   }
   plan.status = PlanStatus::kReachedGoal;
 }
@@ -231,9 +261,13 @@ Plan search_pushes(const SearchModel& search, const Grasp& start, const Goal& go
   Plan plan = blank_plan(search, start, options);
   const Limits limits(options, work);
   const Goal planar = planar_goal(goal);
+  const double dpsi = roll_needed(goal, start.psi);
+  if (rolls_nowhere(search, start, dpsi, options)) {
+    say_no_roll(search, "at any of the grasps tried", plan);
+    return plan;
+  }
   const bool in_plane = reaches(planar, start) ||
                         plan_in_shares(search, start, planar, options, work, plan);
-  const double dpsi = roll_needed(goal, start.psi);
   if (in_plane && dpsi != 0.0 && !rolls_on_way(search, plan, dpsi, options)) {
     go_by_roll_place(search, planar, dpsi, options, work, plan);
   }

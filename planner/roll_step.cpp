@@ -15,8 +15,8 @@ namespace {
 /// Grips that are tried, as the share of the weight that the fingers could carry. A prism
 /// wants one between the jaws' rubbing and its own weight.
 constexpr std::array<double, 6> kCarriedShares = {0.8, 0.6, 0.4, 0.2, 0.1, 0.05};
-constexpr std::array<double, 14> kCarriedSharesOfPrism = {
-    0.8, 0.6, 0.45, 0.34, 0.25, 0.19, 0.14, 0.11, 0.08, 0.06, 0.045, 0.034, 0.025, 0.019};
+constexpr std::array<double, 10> kCarriedSharesOfPrism = {
+    0.8, 0.55, 0.37, 0.25, 0.17, 0.11, 0.08, 0.055, 0.037, 0.025};
 
 double weight_on(const Model& model, const PushContact& contact) {
   return -model.mass * contact.g_O.dot(contact.n);

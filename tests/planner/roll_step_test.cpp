@@ -1,6 +1,8 @@
 #include "planner/roll_step.h"
 
+#include <array>
 #include <cmath>
+#include <cstdio>
 
 #include <gtest/gtest.h>
 
@@ -10,6 +12,7 @@
 #include "scene/constants.h"
 #include "tests/planner/planner_cases.h"
 #include "tests/support/random.h"
+#include "tests/support/sections.h"
 
 namespace prehensile {
 namespace {
@@ -150,6 +153,25 @@ TEST(RollStep, PrismsRollFromSideToSide) {
   }
 }
 
+TEST(RollStep, EachWidthOfTheMarginCanStopAPrism) {
+  const Scene scene = bar_on_sheet();
+  const Model model = prepare(scene);
+  const Roll roll{.contact = 0, .travel = 0.03, .grip_force = 1.2};
+  const double slack = roll_slack(model, scene.start, roll, Margin::none());
+  EXPECT_GT(slack, 0.0);
+  Margin narrow = Margin::none();
+  narrow.friction = narrow.force = 0.01;
+  narrow.grasp = 1e-4;
+  const double less = roll_slack(model, scene.start, roll, narrow);
+  EXPECT_GT(less, 0.0);
+  EXPECT_LT(less, slack);
+  for (double Margin::*width : {&Margin::friction, &Margin::force, &Margin::grasp}) {
+    Margin wide = Margin::none();
+    wide.*width = width == &Margin::grasp ? 0.003 : 0.7;
+    EXPECT_LT(roll_slack(model, scene.start, roll, wide), 0.0);
+  }
+}
+
 /// Whose centre of mass lies beside its middle looks different on another side.
 TEST(RollStep, ALopsidedPrismRollsNotAtAll) {
   Scene scene = bar_on_sheet();
@@ -176,6 +198,50 @@ TEST(RollStep, RolledPrismsRollInTheUsualBox) {
     const PlanTrial trial = try_plan(model, plan, box, random_point(1, i));
     EXPECT_TRUE(trial.sticks) << i << ": " << name(trial.status);
   }
+}
+
+/// A bar of 4, 6, 8 or 12 sides, one of them on the sheet.
+Scene random_bar(Random& random) {
+  constexpr std::array kSides = {4, 6, 8, 12};
+  const double inner = random.in(0.008, 0.025);
+  const auto section = testing::regular_section(kSides[random.below(4)], inner);
+  Scene scene = bar_on_sheet();
+  scene.object.shape = PrismShape{section, 0.1, Axis::kX};
+  scene.object.mass = random.log_in(0.02, 1.0);
+  const double friction = random.log_in(0.02, 0.5);
+  scene.gripper.friction = {friction, friction};
+  scene.gripper.pad = RectanglePad{{0.03, random.chance(0.5) ? 0.002 : 0.006}};
+  scene.gripper.grip_force = 9.81 * scene.object.mass / friction;
+  scene.pushers[0].friction = random.in(0.5, 2.0);
+  scene.start.X_HO.y = random.in(-0.5, 0.1) * inner;
+  return scene;
+}
+
+/// The corners that are followed stand for all that lies between them.
+TEST(RollStep, RollsOfRandomBarsSurviveTheMargin) {
+  Random random(11);
+  int rolled = 0;
+  int tried = 0;
+  int failed = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Scene scene = random_bar(random);
+    if (!check(scene).empty()) continue;
+    const Model model = prepare(scene);
+    Plan plan = plan_at(scene);
+    const double dpsi = model.prism->same_after * (random.chance(0.5) ? 1.0 : -1.0);
+    if (!insert_roll(model, dpsi, usual_margin(model), {}, plan)) continue;
+    ++rolled;
+    EXPECT_NEAR(plan.goal.psi, dpsi, 1e-9);
+    for (std::uint64_t k = 0; k < 20; ++k) {
+      const PlanTrial trial = try_plan(model, plan, usual_box(), random_point(7, k));
+      if (!trial.is_scene) continue;  // held so near the rim that the pads may miss it
+      ++tried;
+      failed += !trial.sticks;
+    }
+  }
+  EXPECT_GT(rolled, 8);
+  EXPECT_LE(failed, tried / 200) << "of " << tried;
+  std::printf("%d bars roll, %d of %d draws fail\n", rolled, failed, tried);
 }
 
 TEST(RollStep, BaselinesRollPrismsToo) {

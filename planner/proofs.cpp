@@ -104,7 +104,8 @@ double roll_asked(const Model& model) {
 
 /// Whether a contact may roll the object with some grip: a line under a long side that
 /// carries weight. With a loose enough grip any friction of the support suffices to roll
-/// a cylinder. A prism is rolled where its goal asks for that.
+/// a cylinder. A prism is rolled where its goal asks for that; on a support that carries
+/// nothing "the fingers hold it" is a second motion, or it falls.
 bool may_roll(const Model& model) {
   if (!model.cross_section && !(model.prism && roll_asked(model) > 0.0)) return false;
   const Vec2 axis = rolling_axis(model);

@@ -116,9 +116,9 @@ struct RollPlaces {
 };
 
 RollPlaces roll_places_on(const Model& model, const Grasp& start) {
-  constexpr std::array kAlong = {0.0, 0.12, -0.12, 0.25, -0.25};  // of the length
   RollPlaces places{.first_angle = start.X_HO.theta, .angles = 12};
   if (!model.prism) {
+    constexpr std::array kAlong = {0.0, 0.12, -0.12, 0.25, -0.25};  // of the length
     const auto& can = std::get<CylinderShape>(model.scene.object.shape);
     const Vec2 axis = can.axis == Axis::kX ? Vec2::UnitX() : Vec2::UnitY();
     for (const double share : kAlong) places.p_OF.push_back(share * can.length * axis);

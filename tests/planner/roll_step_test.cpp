@@ -244,6 +244,27 @@ TEST(RollStep, RollsOfRandomBarsSurviveTheMargin) {
   std::printf("%d bars roll, %d of %d draws fail\n", rolled, failed, tried);
 }
 
+/// What the proof that nothing rolls a prism counts on.
+TEST(RollStep, ASupportThatCarriesNothingRollsNoBar) {
+  Random random(12);
+  int tried = 0;
+  for (int i = 0; i < 300; ++i) {
+    Scene scene = random_bar(random);
+    const double friction = random.log_in(0.02, 2.0);
+    scene.gripper.friction = {friction, friction};
+    scene.g_W = {0.0, random.chance(0.5) ? 0.0 : random.in(0.0, 9.81)};
+    if (!check(scene).empty()) continue;
+    ++tried;
+    const Model model = prepare(scene);
+    const double side = random.chance(0.5) ? 1.0 : -1.0;
+    const Roll roll{.contact = 0,
+                    .travel = side * model.roll_radius * model.prism->same_after,
+                    .grip_force = random.log_in(0.1, 100.0)};
+    EXPECT_FALSE(apply(model, scene.start, roll).completed()) << i;
+  }
+  EXPECT_GT(tried, 100);
+}
+
 TEST(RollStep, BaselinesRollPrismsToo) {
   const Model model = prepare(testing::bar_among_walls());
   for (const char* planner : {"motion-cone-tree", "random-shooting", "two-trees"}) {

@@ -22,22 +22,24 @@ double weight_on(const Model& model, const PushContact& contact) {
   return -model.mass * contact.g_O.dot(contact.n);
 }
 
-double cylinder_slack(const Model& model, const Roll& roll, const Margin& margin) {
+/// In closed form; only if the roll completes, which also takes lines long enough to keep
+/// the object from tilting.
+double cylinder_slack(const Model& model, const Grasp& start, const Roll& roll) {
   CrossSectionModel section = *model.cross_section;
   if (roll.grip_force > 0.0) section.grip_force = roll.grip_force;
-  section.grip_force *= 1.0 + margin.force;
   const PushContact& contact = model.contacts[roll.contact];
   const double weight = weight_on(model, contact);
   if (!(weight > 0.0)) return -kInfinity;
   const double carried = (section.friction[0] + section.friction[1]) * section.grip_force;
   const double threshold = rolling_threshold(section, roll.travel, weight);
-  const double friction = contact.mu * (1.0 - margin.friction);
-  return std::min(friction - threshold, 1.0 - carried / weight);
+  const double slack = std::min(contact.mu - threshold, 1.0 - carried / weight);
+  if (slack < 0.0) return slack;
+  return apply(model, start, roll, {}).completed() ? slack : -kInfinity;
 }
 
 /// Friction of the support above the steepest traction of a roll that is followed to its
 /// end; -infinity if that is not reached.
-double slack_of_followed(const Model& model, const Grasp& start, const Roll& roll) {
+double prism_slack(const Model& model, const Grasp& start, const Roll& roll) {
   std::vector<Sample> trace;
   const Transition done = apply(model, start, roll, {}, &trace);
   if (!done.completed()) return -kInfinity;
@@ -49,35 +51,9 @@ double slack_of_followed(const Model& model, const Grasp& start, const Roll& rol
   return slack;
 }
 
-/// Followed at the corners of the margin, too: the friction of the support, the height at
-/// which the fingers hold the object, and weight over friction of the fingers, half of
-/// which their grip is off and half their friction. No law tells where between them a
-/// roll ends: a sample, as for pushes in space.
-double prism_slack(const Model& model, const Grasp& start, const Roll& roll,
-                   const Margin& margin) {
-  constexpr int kCorners = 16;
-  double slack = slack_of_followed(model, start, roll);
-  if (margin.is_none()) return slack;
-  const double grip =
-      roll.grip_force > 0.0 ? roll.grip_force : model.scene.gripper.grip_force;
-  const PushContact& contact = model.contacts[roll.contact];
-  const Vec2 up = rotated(start.X_HO.theta, contact.n);
-  Model corner = model;
-  for (int i = 0; i < kCorners && slack >= 0.0; ++i) {
-    const auto off = [&](int bit, double width) { return i >> bit & 1 ? width : -width; };
-    corner.contacts[roll.contact].mu = contact.mu * (1.0 + off(0, margin.friction));
-    for (int jaw = 0; jaw < 2; ++jaw) {
-      corner.scene.gripper.friction[jaw] =
-          model.scene.gripper.friction[jaw] * (1.0 + off(1, 0.5 * margin.force));
-    }
-    Roll other = roll;
-    other.grip_force = grip * (1.0 + off(2, 0.5 * margin.force));
-    Grasp from = start;
-    from.X_HO.x += off(3, margin.grasp) * up.x();
-    from.X_HO.y += off(3, margin.grasp) * up.y();
-    slack = std::min(slack, slack_of_followed(corner, from, other));
-  }
-  return slack;
+double nominal_slack(const Model& model, const Grasp& start, const Roll& roll) {
+  if (model.prism) return prism_slack(model, start, roll);
+  return model.cross_section ? cylinder_slack(model, start, roll) : -kInfinity;
 }
 
 /// Travel of the support for a roll by dpsi [m]; NaN if this contact cannot roll the
@@ -146,8 +122,38 @@ bool make_roll(const Model& model, const Grasp& grasp, double dpsi, const Margin
 
 double roll_slack(const Model& model, const Grasp& start, const Roll& roll,
                   const Margin& margin) {
-  if (model.prism) return prism_slack(model, start, roll, margin);
-  return model.cross_section ? cylinder_slack(model, roll, margin) : -kInfinity;
+  constexpr int kBits = 4;  // of a prism, whose corners take a millisecond each
+  double slack = nominal_slack(model, start, roll);
+  if (margin.is_none() || slack < 0.0) return slack;
+  const double grip =
+      roll.grip_force > 0.0 ? roll.grip_force : model.scene.gripper.grip_force;
+  const PushContact& contact = model.contacts[roll.contact];
+  const Vec2 aside = margin.grasp * rotated(start.X_HO.theta, contact.n + contact.t);
+  const int bits = model.prism ? kBits : kBits + 1;
+  Model corner = model;
+  for (int i = 0; i < 1 << bits && slack >= 0.0; ++i) {
+    const auto off = [&](int bit, double width) { return i >> bit & 1 ? width : -width; };
+    corner.contacts[roll.contact].mu = contact.mu * (1.0 + off(0, margin.friction));
+    for (std::size_t jaw = 0; jaw < 2; ++jaw) {
+      const double share = 1.0 + off(1, 0.5 * margin.force);
+      corner.scene.gripper.friction[jaw] = model.scene.gripper.friction[jaw] * share;
+      if (model.cross_section) {
+        corner.cross_section->friction[jaw] = model.cross_section->friction[jaw] * share;
+      }
+    }
+    corner.scene.gripper.pad =
+        resized(model.scene.gripper.pad, 1.0 + off(bits - 1, margin.torque_radius));
+    if (model.cross_section) {
+      corner.region = ContactRegion(corner.scene, model.options.points_per_pad);
+    }
+    Roll other = roll;
+    other.grip_force = grip * (1.0 + off(2, 0.5 * margin.force));
+    Grasp from = start;
+    from.X_HO.x += off(3, aside.x());
+    from.X_HO.y += off(3, aside.y());
+    slack = std::min(slack, nominal_slack(corner, from, other));
+  }
+  return slack;
 }
 
 bool is_room_to_roll(const Model& model) {

@@ -7,13 +7,16 @@
 
 namespace prehensile {
 
-/// How robustly a roll is possible, over the margins of friction and force. >= 0: rolls,
-/// and in one way only; -infinity: does not, at all.
+/// How robustly a roll is possible: the least over the corners of the margin, at which
+/// the roll is done as well. They are the friction of the support, weight over friction
+/// of the fingers, half of which their grip is off and half their friction, the size of
+/// the pads and the place of the finger axis. >= 0: rolls, and in one way only;
+/// -infinity: does not, at all. A sample, as for pushes in space: no law tells where
+/// between the corners a roll ends. Allocates.
 ///
-/// Of a cylinder the lesser of friction of the support above the rolling threshold, and
-/// of the share of the weight that the fingers cannot carry. Of a prism the friction of
-/// the support above the steepest traction, of rolls that are followed to their ends at
-/// the corners of the margin (16, and the roll itself): milliseconds, and allocates.
+/// Of a cylinder it is the lesser of friction of the support above the rolling threshold,
+/// and of the share of the weight that the fingers cannot carry. Of a prism the friction
+/// of the support above the steepest traction of the roll: a millisecond for each corner.
 double roll_slack(const Model& model, const Grasp& start, const Roll& roll,
                   const Margin& margin);
 

@@ -202,9 +202,10 @@ void visit_goal(Fields& fields, Goal& goal) {
   fields.word_if_not(ThetaMeaning::kAngle, "theta_is", goal.theta_is, kThetaWords,
                      "angle: any number of whole turns counts; number: the turns made "
                      "count, too (a cable hangs on the object).");
-  fields.angle("roll", goal.psi, kAngles,
-               "About the long axis; only for an object that can roll, of a prism to where "
-               "its section looks as at 0. Absent: free.");
+  fields.angle(
+      "roll", goal.psi, kAngles,
+      "About the long axis; only for an object that can roll, of a prism to where "
+      "its section looks as at 0. Absent: free.");
   fields.group("tolerance", goal, kOptional, "How near is near enough.",
                [](auto& f, Goal& g) {
                  f.number("position", g.position_tolerance, {1e-9, 1.0, "m"}, kOptional,

@@ -30,8 +30,8 @@ inline constexpr double kTrialSlip = 1e-6;
 /// promises, and `reaches` is rather strict.
 ///
 /// A roll is known of an object square to its support and with its centre of mass in its
-/// middle only (primitives/roll.h): it is tried without errors of tilt, centre of mass and
-/// angle; the angle by which the object is off in the hand is there again after it.
+/// middle only (primitives/roll.h): it is tried without errors of tilt, centre of mass
+/// and angle; the angle by which the object is off in the hand is there again after it.
 PlanTrial try_plan(const Model& model, const Plan& plan, const UncertaintyBox& box,
                    const BoxPoint& at, const TransitionOptions& options = {});
 

@@ -37,8 +37,8 @@ std::string section_fault(const PrismShape& prism);
 /// The section turned by `roll` [rad] about the origin covers itself.
 bool is_same_section(const std::vector<Vec2>& section, double roll) noexcept;
 
-/// The least turn about the origin [rad] after which the section covers itself: a share of
-/// a whole turn, or that.
+/// The least turn about the origin [rad] after which the section covers itself: a share
+/// of a whole turn, or that.
 double symmetry_angle(const std::vector<Vec2>& section) noexcept;
 
 }  // namespace prehensile

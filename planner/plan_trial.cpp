@@ -11,6 +11,8 @@ void set_contact(Push& push, int contact) {
   std::visit([contact](auto& kind) { kind.contact = contact; }, push);
 }
 
+constexpr auto kAngle = static_cast<std::size_t>(Unknown::kGraspAngle);
+
 /// What the law of rolls knows of the box: forces, frictions and places.
 UncertaintyBox box_of_rolls(UncertaintyBox box) {
   for (const Unknown unknown : {Unknown::kCentreOfMassX, Unknown::kCentreOfMassY,
@@ -39,15 +41,15 @@ PlanTrial try_plan(const Model& model, const Plan& plan, const UncertaintyBox& b
     const Push& push = plan.pushes[i].push;
     const Grasp from{trial.end.X_HO};  // rolled it looks as it did at 0
     const bool rolls = std::holds_alternative<Roll>(push);
-    UncertainPush varied = vary(model.scene, from, push, i == 0 ? box : rest, at);
-    double askew = 0.0;  // by which the object is off in the hand, unknown to a roll
-    if (rolls) {
-      const double planned = plan.pushes[i].start.X_HO.theta;
-      askew = varied.start.X_HO.theta - planned;
-      const Grasp square = turned(from, planned - from.X_HO.theta);
-      varied = vary(model.scene, square, push, box_of_rolls(i == 0 ? box : rest), at);
-      other.reset();
-    }
+    const UncertaintyBox& here = i == 0 ? box : rest;
+    // By which the object is off in the hand, before and by this place of the box: a roll
+    // knows of neither.
+    const double askew = from.X_HO.theta - plan.pushes[i].start.X_HO.theta;
+    const double askew_here = here[Unknown::kGraspAngle] * at[kAngle];
+    UncertainPush varied =
+        rolls ? vary(model.scene, turned(from, -askew), push, box_of_rolls(here), at)
+              : vary(model.scene, from, push, here, at);
+    if (rolls) other.reset();
     if (!other) {
       trial.is_scene = check(varied.scene).empty();
       if (!trial.is_scene) return trial;
@@ -63,7 +65,7 @@ PlanTrial try_plan(const Model& model, const Plan& plan, const UncertaintyBox& b
     const Transition done = apply(*other, varied.start, varied.push, options);
     trial.status = done.status;
     const double psi = trial.end.psi + done.end.psi;
-    trial.end = rolls ? turned(done.end, askew) : done.end;
+    trial.end = rolls ? turned(done.end, askew + askew_here) : done.end;
     trial.end.psi = psi;
     if (rolls) other.reset();
     trial.slipped = std::max(trial.slipped, done.slipped);

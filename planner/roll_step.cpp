@@ -56,6 +56,14 @@ double nominal_slack(const Model& model, const Grasp& start, const Roll& roll) {
   return model.cross_section ? cylinder_slack(model, start, roll) : -kInfinity;
 }
 
+/// Makes the pads of `corner` so many times as large as those of the model.
+void resize_pads(double factor, const Model& model, Model& corner) {
+  corner.scene.gripper.pad = resized(model.scene.gripper.pad, factor);
+  if (model.cross_section) {
+    corner.region = ContactRegion(corner.scene, model.options.points_per_pad);
+  }
+}
+
 /// Travel of the support for a roll by dpsi [m]; NaN if this contact cannot roll the
 /// object there, or plans do not roll it so far.
 double travel_of(const Model& model, int contact, const Grasp& grasp, double dpsi) {
@@ -141,10 +149,8 @@ double roll_slack(const Model& model, const Grasp& start, const Roll& roll,
         corner.cross_section->friction[jaw] = model.cross_section->friction[jaw] * share;
       }
     }
-    corner.scene.gripper.pad =
-        resized(model.scene.gripper.pad, 1.0 + off(bits - 1, margin.torque_radius));
-    if (model.cross_section) {
-      corner.region = ContactRegion(corner.scene, model.options.points_per_pad);
+    if (i % (1 << (bits - 1)) == 0) {
+      resize_pads(1.0 + off(bits - 1, margin.torque_radius), model, corner);
     }
     Roll other = roll;
     other.grip_force = grip * (1.0 + off(2, 0.5 * margin.force));

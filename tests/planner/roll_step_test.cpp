@@ -34,6 +34,13 @@ Scene can_on_floor() {
   return scene;
 }
 
+Scene can_to_roll() {
+  Scene scene = can_on_floor();
+  scene.goal.emplace();
+  scene.goal->psi = 1.5;
+  return scene;
+}
+
 TEST(RollStep, SlackTellsWhichRollsComplete) {
   Random random(1);
   int rolls = 0;
@@ -95,9 +102,7 @@ TEST(RollStep, WhatCannotRollHasNoPushes) {
 }
 
 TEST(RollStep, LoosensTheGripToRoll) {
-  Scene scene = can_on_floor();
-  scene.goal.emplace();
-  scene.goal->psi = 1.5;
+  const Scene scene = can_to_roll();
   const Model model = prepare(scene);
   const Plan plan = plan_regrasp(model);
   ASSERT_EQ(plan.status, PlanStatus::kReachedGoal) << plan.message;
@@ -277,9 +282,7 @@ TEST(RollStep, BaselinesRollPrismsToo) {
 
 /// A can whose plan rolls it does so whatever is off by as much as usual.
 TEST(RollStep, RolledCansRollInTheUsualBox) {
-  Scene scene = can_on_floor();
-  scene.goal.emplace();
-  scene.goal->psi = 1.5;
+  const Scene scene = can_to_roll();
   const Model model = prepare(scene);
   const Plan plan = plan_regrasp(model);
   ASSERT_EQ(plan.status, PlanStatus::kReachedGoal) << plan.message;

@@ -251,6 +251,7 @@ nlohmann::ordered_json to_json(const Sweep& sweep) {
 
 std::string to_csv(const Sweep& sweep) {
   std::vector<std::string> header;
+  header.reserve(sweep.fields.size());
   for (const SweptField& field : sweep.fields) header.push_back(csv_text(field.path));
   for (const char* key : {"answered", "status", "reason"}) header.emplace_back(key);
   for (const SweepColumn& column : sweep_columns(sweep.question.of)) {

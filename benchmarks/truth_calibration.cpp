@@ -174,6 +174,7 @@ void add_few(const McubePushes& mcube, const std::string& recording, std::size_t
   if (drawn.size() < count) return;
   std::sort(drawn.begin(), drawn.end());
   std::vector<int> rows;
+  rows.reserve(count);
   for (std::size_t i = 0; i < count; ++i) rows.push_back(drawn[i].second);
   const FitProblem problem = problem_of(mcube, rows, Vec2::Zero(), kCoarseStep, true);
   const Calibration found = calibrate(problem, {.folds = 2});

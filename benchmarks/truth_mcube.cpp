@@ -119,6 +119,7 @@ std::vector<Vec2> offsets_of_other_half(const TipPushes& data) {
     offsets[recording] = {tip_offset(data, half[1]), tip_offset(data, half[0])};
   }
   std::vector<Vec2> result;
+  result.reserve(data.pushes.size());
   for (std::size_t i = 0; i < data.pushes.size(); ++i) {
     result.push_back(offsets[data.pushes[i].recording][half_of[i]]);
   }

@@ -21,6 +21,7 @@ std::string joined(const std::vector<Fault>& faults) {
 /// is aligned with W.
 std::vector<int> touchable_faces(const Pusher& pusher, const std::vector<Face>& faces) {
   std::vector<int> touchable;
+  touchable.reserve(pusher.faces.size() + 1);
   for (const std::string& wanted : pusher.faces)
     touchable.push_back(find_face(faces, wanted));
   if (pusher.faces.empty()) {

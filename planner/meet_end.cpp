@@ -88,7 +88,8 @@ std::optional<Eigen::Matrix3d> slopes(const EndOfPush& end, const Vec3& u,
     double change = kProbe;
     for (const double sign : {1.0, -1.0}) {
       change = sign * kProbe;
-      if ((there = end.missed(u + change * Vec3::Unit(k)))) break;
+      there = end.missed(u + change * Vec3::Unit(k));
+      if (there) break;
     }
     if (!there) return std::nullopt;
     slope.col(k) = (*there - missed) / change;

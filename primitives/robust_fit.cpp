@@ -129,6 +129,7 @@ class Fitter {
     MatrixXd H = MatrixXd::Zero(n, n);
     VectorXd g = VectorXd::Zero(n);
     std::vector<MatrixXd> J;
+    J.reserve(free_.size());
     for (const int j : free_) J.push_back(derivative(now, j));
     for (Eigen::Index row = 0; row < now.residuals.cols(); ++row) {
       for (Eigen::Index part = 0; part < now.residuals.rows(); ++part) {

@@ -72,7 +72,7 @@ void print(const Tally& tally) {
 /// Whether an object says why numbers in it may be none.
 bool says_why(const json& object) {
   for (const char* key : {"reason", "refused", "nominal_reason"}) {
-    if (object.contains(key) && object.at(key) != "") return true;
+    if (object.contains(key) && object.at(key) != json("")) return true;
   }
   for (const char* key : {"answered", "possible", "found"}) {
     if (object.contains(key) && object.at(key) == false) return true;

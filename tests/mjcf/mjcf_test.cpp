@@ -70,6 +70,7 @@ TEST(Mjcf, PushesOfEveryKindLoad) {
                         const std::vector<std::string>& overrides = {}) {
     const Model model = model_of(file, overrides);
     std::vector<PlannedPush> planned;
+    planned.reserve(pushes.size());
     for (const Push& push : pushes) planned.push_back(from_start(model, push));
     return load_error(file_text(model, planned));
   };

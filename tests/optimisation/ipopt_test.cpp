@@ -96,6 +96,7 @@ TEST_F(Ipopt, MovesTheStartIntoTheBounds) {
 TEST_F(Ipopt, ThreadsTakeTurns) {
   std::vector<double> worst(3, kUnbounded);
   std::vector<std::thread> threads;
+  threads.reserve(worst.size());
   for (std::size_t t = 0; t < worst.size(); ++t) {
     threads.emplace_back([t, &worst] {
       testing::Random random(100 + t);

@@ -67,6 +67,7 @@ int points_inside(const Model& model, const Plan& plan) {
     }
   };
   std::vector<Vec3> object;
+  object.reserve(model.outline.size());
   for (const Vec2& v : model.outline) object.emplace_back(v.x(), v.y(), 0.0);
   for (const PlannedPush& planned : plan.pushes) {
     const LinearPush push = as_linear(planned.push);

@@ -16,6 +16,7 @@ const std::vector<Vec2> kSquare = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
 
 std::vector<double> values_of(const PlaceGrid& grid, const auto& f) {
   std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(grid.count()));
   for (int node = 0; node < grid.count(); ++node) values.push_back(f(grid.place(node)));
   return values;
 }
@@ -92,9 +93,7 @@ TEST(LoopsBelow, OfRandomFieldsNeitherCrossNorLieWrong) {
 TEST(PlaceGrid, InterpolatesBetweenItsNodes) {
   PlaceGrid grid{.low = {-1.0, 2.0}, .spacing = 0.5, .nx = 4, .ny = 3};
   const auto value = [](const Vec2& p) { return 3.0 * p.x() - p.y() + p.x() * p.y(); };
-  std::vector<double> values;
-  for (int node = 0; node < grid.count(); ++node)
-    values.push_back(value(grid.place(node)));
+  const std::vector<double> values = values_of(grid, value);
   for (const Vec2& p : {Vec2(-1.0, 2.0), Vec2(-0.7, 2.9), Vec2(0.5, 3.0)}) {
     EXPECT_NEAR(grid.interpolated(values, p), value(p), 1e-12);
   }

@@ -9,6 +9,7 @@
 #include "mechanics/pad_law.h"
 #include "planner/obstacle_bodies.h"
 #include "planner/placement.h"
+#include "planner/prism_path.h"
 #include "planner/separation.h"
 
 namespace prehensile {
@@ -116,28 +117,28 @@ class CollisionCheck {
   }
 
   std::string fault(const PlannedPush& planned) const {
-    if (model_.prism && rolls(planned) && !obstacles_.fixture.empty()) {
-      return "the way of a prism that rolls over its edges is not looked at";
-    }
     const PushContact& contact = contact_of(model_, planned);
     const PlanarPose X_WO = object_in_world(model_, planned);
     const Vec2 n = rotated(X_WO.theta, contact.n);
     const auto* roll = std::get_if<Roll>(&planned.push);
     const double rise = roll ? -roll->travel : 0.0;
     const auto hand = [&](double s, double off) {
-      return HandPose{moved(compose(X_WO, inverse(pose_at(planned, s))), off * n),
-                      s * rise};
+      return in_space(moved(compose(X_WO, inverse(pose_at(planned, s))), off * n),
+                      s * rise);
     };
     const auto object = [&](double s, double off) {
-      return HandPose{moved(X_WO, (kTouch + off) * n), s * rise};
+      return in_space(moved(X_WO, (kTouch + off) * n), s * rise);
     };
     if (hits(obstacles_.hand, obstacles_.clearance, way(planned),
              [&](double s) { return hand(s, 0.0); })) {
       return "the hand comes too near to an obstacle";
     }
-    if (hits(object_, 0.0, std::abs(rise), [&](double s) { return object(s, 0.0); })) {
-      return "the object hits an obstacle";
-    }
+    const bool object_hits =
+        roll && model_.prism
+            ? prism_hits(contact, planned.end.psi - planned.start.psi, object(0.0, 0.0))
+            : hits(object_, 0.0, std::abs(rise),
+                   [&](double s) { return object(s, 0.0); });
+    if (object_hits) return "the object hits an obstacle";
     for (const double end : {0.0, 1.0}) {
       const std::string when = end == 0.0 ? "approaches" : "retreats";
       if (hits(obstacles_.hand, obstacles_.clearance, obstacles_.approach,
@@ -162,10 +163,13 @@ class CollisionCheck {
     const Vec3 d(to.X_WH.x - from.X_WH.x, to.X_WH.y - from.X_WH.y, to.z - from.z);
     const double length = d.norm() + reach * std::abs(to.X_WH.theta - from.X_WH.theta);
     return hits(obstacles_.hand, obstacles_.clearance, length,
-                [&](double s) { return between(from, to, s); }) ||
+                [&](double s) {
+                  const HandPose at = between(from, to, s);
+                  return in_space(at.X_WH, at.z);
+                }) ||
            hits(object_, 0.0, length, [&](double s) {
              const HandPose at = between(from, to, s);
-             return HandPose{compose(at.X_WH, X_HO), at.z};
+             return in_space(compose(at.X_WH, X_HO), at.z);
            });
   }
 
@@ -197,9 +201,16 @@ class CollisionCheck {
     }
   }
 
-  double distance(const std::vector<ConvexBody>& bodies, const HandPose& frame) const {
+  /// A prism that rolls over its edges from where it lies.
+  bool prism_hits(const PushContact& contact, double dpsi,
+                  const Eigen::Isometry3d& X_WO) const {
+    const PrismPath path(model_, contact, dpsi);
+    return hits(object_, 0.0, path.length(), [&](double s) { return X_WO * path.at(s); });
+  }
+
+  double distance(const std::vector<ConvexBody>& bodies,
+                  const Eigen::Isometry3d& X_W) const {
     double least = std::numeric_limits<double>::infinity();
-    const Eigen::Isometry3d X_W = in_space(frame.X_WH, frame.z);
     for (const ConvexBody& body : bodies) {
       const PlacedBody placed{&body, X_W * pose_of(body)};
       for (const ConvexBody& fixed : obstacles_.fixture) {

@@ -33,9 +33,10 @@ bool plan_by_steep_loops(const SearchModel& search, const Grasp& start, const Go
                          WalkLattices& lattices, const Limits& limits, Work& work,
                          Plan& plan) {
   const FlatState from = flat_state(start);
-  auto moves = search_loops(search, from, goal_places(*search.model, goal, from),
-                            tolerated_places(*search.model, goal, from),
-                            Steepness::kSteep, lattices, limits, work);
+  auto moves =
+      search_loops(search, from, goal_places(*search.model, goal, from, search.margin),
+                   tolerated_places(*search.model, goal, from), Steepness::kSteep,
+                   lattices, limits, work);
   if (moves) moves = cheaper_by_pairs(search, std::move(*moves), limits, work);
   return append_moves(search, moves, plan);
 }
@@ -189,11 +190,9 @@ bool rolls_nowhere(const SearchModel& search, const Grasp& start, double dpsi,
          roll_grasps(search, start, dpsi, options, 1).empty();
 }
 
-void say_no_roll(const SearchModel& search, const char* where, Plan& plan) {
+void say_no_roll(const char* where, Plan& plan) {
   plan.status = PlanStatus::kBudgetSpent;
-  plan.message = is_room_to_roll(*search.model)
-                     ? std::string("no contact rolls the object ") + where
-                     : "plans do not roll prisms among obstacles";
+  plan.message = std::string("no contact rolls the object ") + where;
   plan.pushes.clear();
 }
 
@@ -246,7 +245,7 @@ void conclude_search(const SearchModel& search, const Goal& goal,
   const double dpsi = roll_needed(goal, plan.start.psi);
   if (dpsi != 0.0 &&
       !insert_roll(*search.model, dpsi, search.margin, options.transition, plan)) {
-    return say_no_roll(search, "at any pose of the plan", plan);
+    return say_no_roll("at any pose of the plan", plan);
   }
   plan.status = PlanStatus::kReachedGoal;
 }
@@ -263,7 +262,7 @@ Plan search_pushes(const SearchModel& search, const Grasp& start, const Goal& go
   const Goal planar = planar_goal(goal);
   const double dpsi = roll_needed(goal, start.psi);
   if (rolls_nowhere(search, start, dpsi, options)) {
-    say_no_roll(search, "at any of the grasps tried", plan);
+    say_no_roll("at any of the grasps tried", plan);
     return plan;
   }
   const bool in_plane = reaches(planar, start) ||

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "planner/confines_check.h"
 #include "primitives/roll.h"
 #include "scene/constants.h"
 
@@ -71,8 +72,7 @@ double travel_of(const Model& model, int contact, const Grasp& grasp, double dps
     const RollSection section = roll_section(model, contact, grasp);
     return section.possible ? dpsi / section.psi_per_travel : kNan;
   }
-  if (!looks_alike(*model.prism, grasp.psi + dpsi) || !is_room_to_roll(model))
-    return kNan;
+  if (!looks_alike(*model.prism, grasp.psi + dpsi)) return kNan;
   const double way = model.contacts[contact].t.dot(model.prism->axis);
   return std::copysign(dpsi * model.roll_radius, dpsi * way);
 }
@@ -99,7 +99,7 @@ bool make_roll(const Model& model, int contact, const Grasp& grasp, double dpsi,
   planned.push = roll;
   planned.start = grasp;
   planned.end = {grasp.X_HO, rolled.end.psi};  // O of a prism has risen and sunk again
-  return rolled.completed();
+  return rolled.completed() && confinement_fault(model, {planned}).empty();
 }
 
 /// Places for a roll, those that split no run of pushes first.
@@ -160,10 +160,6 @@ double roll_slack(const Model& model, const Grasp& start, const Roll& roll,
     slack = std::min(slack, nominal_slack(corner, from, other));
   }
   return slack;
-}
-
-bool is_room_to_roll(const Model& model) {
-  return !model.prism || !model.scene.obstacles || model.scene.obstacles->fixture.empty();
 }
 
 bool insert_roll(const Model& model, double dpsi, const Margin& margin,

@@ -20,11 +20,9 @@ namespace prehensile {
 double roll_slack(const Model& model, const Grasp& start, const Roll& roll,
                   const Margin& margin);
 
-/// False for a prism among obstacles: its way over its edges is not looked at.
-bool is_room_to_roll(const Model& model);
-
 /// Puts one roll by dpsi [rad] where the plan needs the fewest extra placements, with the
-/// grip of the scene or the tightest of a few looser ones that rolls within the margin.
+/// grip of the scene or the tightest of a few looser ones that rolls within the margin,
+/// within the scene's limits and clear of its obstacles.
 /// False if no contact can roll the object at any pose of the plan.
 bool insert_roll(const Model& model, double dpsi, const Margin& margin,
                  const TransitionOptions& options, Plan& plan);

@@ -299,17 +299,40 @@ TEST(RollStep, RolledCansRollInTheUsualBox) {
   }
 }
 
-TEST(RollStep, PrismsAreNotRolledAmongObstacles) {
+/// A ball over the edge that the bar tips about, clear of it before and after: the bar is
+/// 30 mm high, and 42 mm while it stands on its edge. The table that it lies on is no
+/// obstacle, a wall that it would roll into is one.
+TEST(RollStep, PrismsRollWhereTheirWayOverTheirEdgesIsClear) {
   Scene scene = bar_on_sheet();
   scene.goal = testing::goal_at({0.0, 0.008}, 0.0);
   scene.goal->psi = 0.5 * kPi;
-  scene.obstacles.emplace();
-  EXPECT_EQ(plan_regrasp(prepare(scene)).status, PlanStatus::kReachedGoal);
-  scene.obstacles->fixture = {{.name = "post", .shape = SphereShape{0.01}}};
-  scene.obstacles->fixture[0].position = {0.5, 0.5, 0.0};
-  const Plan plan = plan_regrasp(prepare(scene));
-  EXPECT_EQ(plan.status, PlanStatus::kBudgetSpent);
-  EXPECT_NE(plan.message.find("among obstacles"), std::string::npos) << plan.message;
+  scene.obstacles = Obstacles{.approach = 0.002};
+  const auto status_with = [&](const ConvexBody& body) {
+    Scene other = scene;
+    other.obstacles->fixture = {body};
+    const Plan plan = plan_regrasp(prepare(other));
+    if (!plan.usable()) {
+      EXPECT_NE(plan.message.find("no contact rolls"), std::string::npos) << plan.message;
+    }
+    return plan.status;
+  };
+  const auto ball_above = [](double height) {
+    ConvexBody ball{.name = "ball", .shape = SphereShape{0.005}};
+    ball.position = {0.03, height + 0.005, 0.015};
+    return ball;
+  };
+  const auto wall_at = [](double z) {
+    ConvexBody wall{.name = "wall", .shape = BoxShape{{0.2, 0.2, 0.02}}};
+    wall.position = {0.0, 0.0, z + 0.01};
+    return wall;
+  };
+  ConvexBody table{.name = "table", .shape = BoxShape{{0.4, 0.02, 0.4}}};
+  table.position = {0.0, -0.01, 0.0};
+  EXPECT_EQ(status_with(table), PlanStatus::kReachedGoal);
+  EXPECT_EQ(status_with(ball_above(0.0426)), PlanStatus::kReachedGoal);
+  EXPECT_EQ(status_with(ball_above(0.0422)), PlanStatus::kBudgetSpent);
+  EXPECT_EQ(status_with(wall_at(0.0453)), PlanStatus::kReachedGoal);
+  EXPECT_EQ(status_with(wall_at(0.0448)), PlanStatus::kBudgetSpent);
 }
 
 }  // namespace

@@ -82,8 +82,8 @@ void add_clear_places(const Model& model, SearchModel& search) {
   if (!model.scene.obstacles || !model.scene.goal || !collisions_are_built()) return;
   const FlatState start = flat_state(model.scene.start);
   const std::vector<SearchContact> contacts = search.contacts;
-  for (const auto& states :
-       {std::vector{start}, states_of(goal_places(model, *model.scene.goal, start))}) {
+  const auto goals = goal_places(model, *model.scene.goal, start, search.margin);
+  for (const auto& states : {std::vector{start}, states_of(goals)}) {
     if (has_clear_contact(search, states)) continue;
     int last = -1;
     for (const SearchContact& contact : contacts) {

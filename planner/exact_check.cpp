@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "planner/confines_check.h"
+#include "planner/goal.h"
 #include "planner/meet_end.h"
 #include "planner/point_margin.h"
 #include "planner/ring_pads.h"
@@ -168,14 +169,18 @@ double travel_in_pad_plane(const Push& push) {
 }
 
 bool stays_on_object(const Model& model, const Plan& plan, std::string* why) {
+  if (plan.pushes.empty()) return true;
   double travelled = 0.0;
+  const Vec2 first = finger_in_object(plan.start.X_HO);
+  const Vec2 last = finger_in_object(plan.pushes.back().end.X_HO);
+  const bool ends_as_given =
+      !model.scene.goal || is_place_given(*model.scene.goal, first, last);
   for (std::size_t i = 0; i < plan.pushes.size(); ++i) {
     const PlannedPush& push = plan.pushes[i];
     const Vec2 from = finger_in_object(push.start.X_HO);
     const Vec2 to = finger_in_object(push.end.X_HO);
     const bool stays =
-        path_on_object(model, {from, travelled == 0.0},
-                       {to, to == finger_in_object(plan.pushes.back().end.X_HO)},
+        path_on_object(model, {from, travelled == 0.0}, {to, to == last && ends_as_given},
                        carried(plan.margin, travelled));
     travelled += travel_in_pad_plane(push.push);
     if (stays) continue;
@@ -186,6 +191,20 @@ bool stays_on_object(const Model& model, const Plan& plan, std::string* why) {
     return false;
   }
   return true;
+}
+
+bool given_may_fall(const Model& model, const Plan& plan) {
+  if (plan.pushes.empty() || plan.margin.is_none() || can_roll(model.scene.object)) {
+    return false;
+  }
+  const auto is_held = [&](const PlannedPush& push, const Grasp& grasp) {
+    const auto contact = static_cast<std::size_t>(contact_of(push.push));
+    const Vec2& g_O = model.contacts[contact].g_O;
+    return holding_slack(model, finger_in_object(grasp.X_HO), g_O, plan.margin) > 0.0;
+  };
+  return !is_held(plan.pushes.front(), plan.start) ||
+         !is_held(plan.pushes.back(), plan.pushes.back().end) ||
+         point_plan_may_fall(model, plan);
 }
 
 namespace {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/confines.h"
+#include "planner/segment.h"
 #include "scene/constants.h"
 
 namespace prehensile {
@@ -41,8 +42,9 @@ double flat_distance(const Model& model, const FlatState& from, const GoalPlace&
 
 class PlaceCollector {
  public:
-  PlaceCollector(const Model& model, const Goal& goal, const FlatState& start)
-      : model_(model), goal_(goal), start_(start) {}
+  PlaceCollector(const Model& model, const Goal& goal, const FlatState& start,
+                 const Margin& margin = Margin::none())
+      : model_(model), goal_(goal), start_(start), margin_(margin) {}
 
   /// All places at one angle of O in H (and its whole turns).
   void add_angle(double theta) {
@@ -117,8 +119,10 @@ class PlaceCollector {
  private:
   void add(double theta, const Vec2& position, int windings, int first = 0) {
     const Vec2 p_OF = -rotated(-theta, position);
-    if (places_.count == GoalPlaces::kCapacity || !contains(model_.pad_face, p_OF))
+    if (places_.count == GoalPlaces::kCapacity || !contains(model_.pad_face, p_OF) ||
+        is_too_near_the_border(p_OF)) {
       return;
+    }
     GoalPlace place{.p_OF = p_OF};
     for (int i = first; i < first + windings; ++i) {
       const double angle = theta + offset(i, 2.0 * kPi);
@@ -127,9 +131,18 @@ class PlaceCollector {
     if (place.count > 0) places_.places[places_.count++] = place;
   }
 
+  bool is_too_near_the_border(const Vec2& p_OF) const {
+    if (margin_.grasp + margin_.tilt == 0.0) return false;
+    if (is_place_given(goal_, start_.p_OF, p_OF)) return false;
+    const double way = 2.0 * (p_OF - start_.p_OF).norm();
+    const double room = carried(margin_, way).grasp;
+    return distance_to_border(model_.pad_face, p_OF, p_OF) < room;
+  }
+
   const Model& model_;
   const Goal& goal_;
   const FlatState& start_;
+  Margin margin_;
   GoalPlaces places_;
 };
 
@@ -185,9 +198,14 @@ std::optional<double> angle_between(const Model& model, const GoalPlace& place,
   return turned;
 }
 
-GoalPlaces goal_places(const Model& model, const Goal& goal,
-                       const FlatState& start) noexcept {
-  PlaceCollector collector(model, goal, start);
+bool is_place_given(const Goal& goal, const Vec2& p_OF_start, const Vec2& p_OF) noexcept {
+  constexpr double kSame = 1e-9;  // [m]
+  return fixes_all(goal) || (p_OF - p_OF_start).norm() <= kSame;
+}
+
+GoalPlaces goal_places(const Model& model, const Goal& goal, const FlatState& start,
+                       const Margin& margin) noexcept {
+  PlaceCollector collector(model, goal, start, margin);
   if (goal.theta) {
     collector.add_angle(nearest_angle(goal, start.theta));
   } else {

@@ -38,15 +38,22 @@ struct GoalPlace {
 std::optional<double> angle_between(const Model& model, const GoalPlace& place,
                                     double low, double high) noexcept;
 
+/// Whether the pads are where the goal or the start has them, and not where the planner
+/// chose to: a goal that leaves a coordinate free leaves the place of the finger axis
+/// free, too.
+bool is_place_given(const Goal& goal, const Vec2& p_OF_start, const Vec2& p_OF) noexcept;
+
 /// Members of a goal set, nearest to the start first. A fixed coordinate takes its exact
 /// value; a free one keeps that of the start first, then steps through a fixed grid.
+/// Where the planner chooses, the pads keep the margin from the border after a way twice
+/// as long as the straight one.
 struct GoalPlaces {
   static constexpr int kCapacity = 96;
   int count = 0;
   std::array<GoalPlace, kCapacity> places;
 };
-GoalPlaces goal_places(const Model& model, const Goal& goal,
-                       const FlatState& start) noexcept;
+GoalPlaces goal_places(const Model& model, const Goal& goal, const FlatState& start,
+                       const Margin& margin = Margin::none()) noexcept;
 
 /// A goal that fixes place and angle, at more whole turns than goal_places: two to
 /// thirteen to either side, the fewest first. None where the angle is a number.

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 
 #include "planner/planner.h"
 #include "planner/steering.h"
@@ -23,6 +24,18 @@ auto within_budget(Work& work, std::int64_t budget, Act act) {
 inline std::int64_t share_of_left(const Work& work, double share) {
   return static_cast<std::int64_t>(share *
                                    static_cast<double>(work.budget - work.done()));
+}
+
+/// The options with what is left of their time limit; nothing if none is. Without a limit
+/// the clock decides nothing.
+inline std::optional<PlanOptions> with_time_left(
+    const PlanOptions& options, std::chrono::steady_clock::time_point begin) {
+  PlanOptions rest = options;
+  if (options.time_limit <= 0.0) return rest;
+  rest.time_limit -=
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (rest.time_limit <= 0.0) return std::nullopt;
+  return rest;
 }
 
 class Limits {

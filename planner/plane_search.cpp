@@ -123,7 +123,7 @@ std::optional<std::vector<Move>> search_plane(const SearchModel& search,
                                               WalkLattices& lattices,
                                               const Limits& limits, Work& work) {
   const FlatState from = flat_state(start);
-  const GoalPlaces goals = goal_places(*search.model, goal, from);
+  const GoalPlaces goals = goal_places(*search.model, goal, from, search.margin);
   const auto direct = direct_push(search, from, goals, work);
   if (direct && (!search.looks_for_cheaper || goes_straight(search, goals, *direct))) {
     return std::vector{*direct};

@@ -54,7 +54,7 @@ class RunSearch {
   }
 
   std::optional<Chain> run(const Goal& goal, const Limits& limits) {
-    const GoalPlaces goals = goal_places(*search_.model, goal, start_);
+    const GoalPlaces goals = goal_places(*search_.model, goal, start_, search_.margin);
     for (int i = 0; i < goals.count; ++i) {
       const GoalPlace& place = goals.places[i];
       for (int j = 0; j < place.count; ++j) {

@@ -73,11 +73,12 @@ SearchContact point(const Model& model, int index, double room) {
   return contact;
 }
 
-void add_contacts(const Model& model, const Margin& margin,
+void add_contacts(const Model& model, const Margin& margin, int left_out,
                   std::vector<SearchContact>& contacts) {
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const PushContact& contact = model.contacts[i];
     const int index = static_cast<int>(i);
+    if (index == left_out) continue;
     const double half_face = 0.5 * (contact.b - contact.a).norm();
     if (contact.is_point) {
       const double room = room_of_point(model, index, margin);
@@ -202,7 +203,7 @@ bool stays_on_object(const SearchModel& search, const FlatState& from,
 
 }  // namespace
 
-SearchModel prepare_search(const Model& model, const Margin& margin) {
+SearchModel prepare_search(const Model& model, const Margin& margin, int left_out) {
   SearchModel search;
   search.model = &model;
   search.margin = margin;
@@ -213,7 +214,7 @@ SearchModel prepare_search(const Model& model, const Margin& margin) {
   if (has_ring_pads(model) && margin.is_none()) {
     search.rings = std::make_shared<const RingTable>(model);
   }
-  add_contacts(model, margin, search.contacts);
+  add_contacts(model, margin, left_out, search.contacts);
   search.confines = Confines::of(search);
   add_clear_places(model, search);
   return search;

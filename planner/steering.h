@@ -82,8 +82,9 @@ struct SearchModel {
 /// Compiles the contacts: a line pusher that covers its face stands at the face's centre,
 /// a shorter one at places so close that they cover the face, a point pusher anywhere on
 /// the face but `margin.place` from its ends. No contacts where the grasp has no friction
-/// or no torque (point pads). `model` must outlive the result.
-SearchModel prepare_search(const Model& model, const Margin& margin);
+/// or no torque (point pads). `left_out`: a contact of the model that makes no push; -1:
+/// none. `model` must outlive the result.
+SearchModel prepare_search(const Model& model, const Margin& margin, int left_out = -1);
 
 /// The same contacts in the same order, at another margin: points that it would drive off
 /// their face stay in its middle.

@@ -137,7 +137,7 @@ bool improve_by_three_pushes(const SearchModel& search, const Limits& limits, Wo
                      .run(places);
     if (moves) best.offer(std::move(*moves));
   };
-  look(goal_places(model, goal, from), 1.0);
+  look(goal_places(model, goal, from, search.margin), 1.0);
   if (search.margin.is_none()) {
     look(tolerated_places(model, goal, from), kWorthTolerance);
   }

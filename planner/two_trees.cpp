@@ -67,7 +67,7 @@ class TwoTrees {
         to_goals_(steps_.theta_scale()) {
     const FlatState start = flat_state(question.start);
     from_start_.add({.at = {start, question.start.psi}});
-    add_goals(goal_places(steps_.model(), question.goal, start));
+    add_goals(goal_places(steps_.model(), question.goal, start, question.search.margin));
     add_goals(tolerated_places(steps_.model(), question.goal, start));
   }
 

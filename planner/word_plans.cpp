@@ -131,7 +131,7 @@ bool improve_by_words(const SearchModel& search, const Limits& limits, Work& wor
   account(model, plan);
   if (plan.cost <= kGapAsked * trivial_bound(model, plan.start, goal)) return false;
   const FlatState from = flat_state(plan.start);
-  const GoalPlaces goals = goal_places(model, goal, from);
+  const GoalPlaces goals = goal_places(model, goal, from, search.margin);
   Candidates candidates(search, from, goals, plan.cost, work);
   std::int64_t nodes = kBoundNodes;
   visit_words(model, plan.start, goal, plan.cost, search.margin.weightless, nodes,

@@ -3,14 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "mechanics/sticking.h"
+#include "planner/goal.h"
 #include "planner/ring_pads.h"
 #include "planner/spread_pads.h"
 #include "problems/random_pushes.h"
+#include "tests/planner/planner_cases.h"
 
 namespace prehensile {
 namespace {
@@ -132,6 +136,31 @@ TEST(ExactCheck, PushesByPointsStayWithThePlan) {
     EXPECT_EQ(why, "push 2: the object ends elsewhere");
   }
   EXPECT_GE(right, 5);
+}
+
+/// Half a millimetre from the border: as the goal has it, or as the planner chose.
+TEST(ExactCheck, AnEndThatThePlannerChoseKeepsTheMargin) {
+  Scene scene = testing::walled_square();
+  double top = 0.0;
+  for (const Vec2& p : prepare(scene).pad_face) top = std::max(top, p.y());
+  const FlatState end{{0.0, top - 5e-4}, scene.start.X_HO.theta};
+  Plan plan{.start = scene.start};
+  plan.margin.grasp = 1e-3;
+  plan.pushes.push_back({});
+  plan.pushes.back().start = scene.start;
+  plan.pushes.back().end = grasp_of(end, 0.0);
+  plan.pushes.back().push = LinearPush{.travel = 0.03};
+  scene.goal = testing::goal_at(end.p_OF, end.theta);
+  std::string why;
+  EXPECT_TRUE(stays_on_object(prepare(scene), plan, &why)) << why;
+  for (const int free : {0, 1, 2}) {
+    Goal goal = *scene.goal;
+    std::optional<double>* const all[] = {&goal.x, &goal.y, &goal.theta};
+    all[free]->reset();
+    Scene freed = scene;
+    freed.goal = goal;
+    EXPECT_FALSE(stays_on_object(prepare(freed), plan, &why)) << free;
+  }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "planner/segment.h"
 #include "scene/constants.h"
 #include "tests/planner/planner_cases.h"
 #include "tests/support/random.h"
@@ -66,6 +67,47 @@ TEST(Goal, PlacesMeetTheGoalOnTheObjectNearestFirst) {
       last = distance;
     }
   }
+}
+
+/// What the goal fixes, and where the pads are at the start, is no choice of the planner.
+TEST(Goal, PlacesThatThePlannerChoosesKeepTheMargin) {
+  const Model model = prepare(published_tee(3));
+  Margin margin;
+  margin.grasp = 1e-3;
+  margin.tilt = 0.02;
+  Random random(2);
+  int chosen = 0;
+  int too_near = 0;
+  for (int i = 0; i < 500; ++i) {
+    Goal goal = goal_at(random.in_box(0.05, 0.05), random.in(-kPi, kPi));
+    if (random.chance(0.4)) goal.x.reset();
+    if (random.chance(0.4)) goal.y.reset();
+    if (random.chance(0.4)) goal.theta.reset();
+    if (!goal.x && !goal.y && !goal.theta) continue;
+    const bool fixed = goal.x && goal.y && goal.theta;
+    const FlatState start{random.in_box(0.05, 0.014), random.in(-5.0, 5.0)};
+    const auto room = [&](const Vec2& p_OF) {
+      return distance_to_border(model.pad_face, p_OF, p_OF);
+    };
+    const auto needed = [&](const Vec2& p_OF) {
+      return margin.grasp + 2.0 * margin.tilt * (p_OF - start.p_OF).norm();
+    };
+    const GoalPlaces with = goal_places(model, goal, start, margin);
+    const GoalPlaces without = goal_places(model, goal, start);
+    EXPECT_TRUE(!fixed || with.count == without.count);
+    for (int k = 0; k < with.count; ++k) {
+      const Vec2& p_OF = with.places[k].p_OF;
+      if (fixed || (p_OF - start.p_OF).norm() < 1e-9) continue;
+      EXPECT_GE(room(p_OF), needed(p_OF));
+      ++chosen;
+    }
+    for (int k = 0; k < without.count; ++k) {
+      const Vec2& p_OF = without.places[k].p_OF;
+      too_near += !fixed && room(p_OF) < needed(p_OF);
+    }
+  }
+  EXPECT_GT(chosen, 1000);
+  EXPECT_GT(too_near, 100);
 }
 
 TEST(Goal, AngleBetweenIsOneOfThePlaceOrWholeTurnsFromIt) {

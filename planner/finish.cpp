@@ -58,8 +58,9 @@ bool is_far_from_bound(const SearchModel& search, const Plan& plan) {
 }
 
 /// A plan found, a run of one placement in its stead, and three pushes in the stead of
-/// both, each polished; and the best of them by what the real pads allow, where it may
-/// still be far from optimal. The cheapest first.
+/// both, each polished; and the best of them by what the real pads allow, then by what
+/// the exact check does where the closed form knows less, where it may still be far from
+/// optimal. The cheapest first.
 std::vector<Plan> polished(const SearchModel& search, const Limits& limits, Work& work,
                            const Plan& plan) {
   std::vector<Plan> plans;
@@ -83,6 +84,10 @@ std::vector<Plan> polished(const SearchModel& search, const Limits& limits, Work
     Plan best = plans.front();
     polish_with_real_pads(search, limits, work, best);
     plans.push_back(best);
+    const bool knows_all = search.exact_everywhere && search.margin.is_none();
+    if (!knows_all && shorten_as_trajectory(search, limits, work, best)) {
+      plans.push_back(best);
+    }
     sort();
   }
   return plans;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -13,69 +14,69 @@
 #include "planner/exact_check.h"
 #include "planner/goal.h"
 #include "planner/push_search.h"
-#include "planner/segment.h"
 #include "planner/stretch.h"
+#include "planner/trajectory_rows.h"
 
 namespace prehensile {
 namespace {
 
 constexpr int kIterations = 100;
+constexpr int kFewIterations = 20;  // to shorten: most of the gain comes first
 constexpr double kTolerance = 1e-6;
 constexpr double kReach = 0.15;       // of a way-point from its place, over L
-constexpr double kWanted = 0.01;      // slack of each push
-constexpr double kEnough = 1e-6;      // above rounding
-constexpr double kWorst = -3.0;       // slacks beyond it, either way, count as this
-constexpr double kLeastRoom = 1e-4;   // beyond what the margin needs, over L
+constexpr double kWanted = 0.01;      // slack of each push that is repaired
+constexpr double kSpare = 1e-4;       // slack of each push that is shortened
 constexpr double kLeastShare = 0.5;   // of the length of a push, which has to stay
+constexpr double kWorthwhile = 1e-4;  // relative gain below which the plan stays
 constexpr double kPrice = 10.0;       // of what a push misses, against squares of moves
 constexpr double kFirstLack = 0.01;   // more than what a push misses at the start
 constexpr double kDifference = 1e-6;  // for derivatives, over L
-constexpr int kSpreadParts = 8;       // of a push, for discs that the face clips
 constexpr std::size_t kMostPushes = 80;
 
-/// Rows of a push. The least slack of each part of it comes first; all but the last count
-/// what is there beyond what is wanted.
-constexpr std::size_t kParts = 5;
-constexpr std::size_t kSpreadRow = kParts;    // slack of pads spread over all angles
-constexpr std::size_t kHeldRow = kParts + 1;  // gravity, at both ends
-constexpr std::size_t kRoomRow = kParts + 3;
-constexpr std::size_t kLengthRow = kParts + 4;
-constexpr std::size_t kPathRow = kParts + 5;  // travelled before the next push
-constexpr std::size_t kRows = kParts + 6;
-using Rows = std::array<double, kRows>;
+using Unknowns = TrajectoryRows::Unknowns;
+using Rows = TrajectoryRows::Rows;
+constexpr std::size_t kRows = TrajectoryRows::kCount;
+constexpr std::size_t kPathRow = TrajectoryRows::kPath;
+constexpr std::size_t kTravelled = TrajectoryRows::kTravelled;
 
-/// What the rows of a push depend on [m]: from and to (x, y of p_OF and c theta), and the
-/// path travelled before it.
-constexpr std::size_t kTravelled = 6;
-using Unknowns = std::array<double, 7>;
+enum class Aim { kRepair, kShorten };
 
 /// One stretch of a plan. The variables, all over L: the way-points (x, y of p_OF and c
-/// theta), the path travelled before each push but the first, and what each push misses.
+/// theta), the path travelled before each push but the first, and what each push misses,
+/// which is nothing where one that sticks is shortened.
 class Trajectory {
  public:
-  Trajectory(const SearchModel& search, const Limits& limits, Work& work,
+  Trajectory(Aim aim, const SearchModel& search, const Limits& limits, Work& work,
              const Margin& margin, double travelled)
-      : search_(search),
+      : aim_(aim),
+        search_(search),
         limits_(limits),
         work_(work),
         margin_(margin),
         travelled_(travelled),
         L_(search.model->L) {}
 
-  /// False if no push slips, or no way-points were found with which none does.
+  /// False if the aim is met already, or no such way-points were found.
   bool run(std::vector<PlannedPush>& pushes) {
     if (!read_stretch(search_, pushes, stretch_) || any_by_point(search_, stretch_)) {
       return false;
     }
     NonlinearProgram program;
     set_start(pushes, program);
-    if (keep_if_it_sticks(program.start)) return false;
+    const bool sticks = keep_if_it_sticks(program.start);
+    if (sticks != (aim_ == Aim::kShorten)) return false;
+    const double before = shortest_;
     set_objective(program);
     set_constraints(program);
-    program.stop = [this] { return !repaired_.empty() || limits_.reached(); };
-    minimise_ipopt(program, {.tolerance = kTolerance, .max_evaluations = kIterations});
-    if (repaired_.empty()) return false;
-    pushes = std::move(repaired_);
+    program.stop = [this] {
+      return (aim_ == Aim::kRepair && !kept_.empty()) || limits_.reached();
+    };
+    minimise_ipopt(program, {.tolerance = kTolerance,
+                             .max_evaluations =
+                                 aim_ == Aim::kRepair ? kIterations : kFewIterations});
+    if (kept_.empty()) return false;
+    if (aim_ == Aim::kShorten && shortest_ > before * (1.0 - kWorthwhile)) return false;
+    pushes = std::move(kept_);
     return true;
   }
 
@@ -103,18 +104,23 @@ class Trajectory {
         add(x / L_, x / L_ - kReach, x / L_ + kReach);
       }
     }
+    std::vector<double> least_lengths;
     double travelled = travelled_;
     for (const PlannedPush& push : pushes) {
       const double length = travel_in_pad_plane(push.push);
-      least_lengths_.push_back(kLeastShare * length);
+      least_lengths.push_back(kLeastShare * length);
       travelled += length;
-      if (least_lengths_.size() < count()) add(travelled / L_, -kUnbounded, kUnbounded);
+      if (least_lengths.size() < count()) add(travelled / L_, -kUnbounded, kUnbounded);
     }
+    rows_.emplace(search_, work_, margin_, stretch_,
+                  aim_ == Aim::kRepair ? kWanted : kSpare, std::move(least_lengths));
     Rows rows;
     for (std::size_t k = 0; k < count(); ++k) {
-      fill_rows(k, unknowns_of(k, program.start), rows);
+      rows_->fill(k, unknowns_of(k, program.start), rows);
       const double least = *std::min_element(rows.begin(), rows.begin() + kPathRow);
-      add(kFirstLack + std::max(0.0, -least), 0.0, kUnbounded);
+      const bool may_lack = aim_ == Aim::kRepair;
+      add(may_lack ? kFirstLack + std::max(0.0, -least) : 0.0, 0.0,
+          may_lack ? kUnbounded : 0.0);
     }
   }
 
@@ -131,82 +137,39 @@ class Trajectory {
     return at;
   }
 
-  Move move_of_push(std::size_t k, const Unknowns& at) const {
-    const double c = search_.model->c;
-    return {
-        stretch_.contacts[k], {{at[0], at[1]}, at[2] / c}, {{at[3], at[4]}, at[5] / c}};
+  void set_objective(NonlinearProgram& program) const {
+    if (aim_ == Aim::kShorten) return set_length(program);
+    set_moves(program);
   }
 
-  void fill_rows(std::size_t k, const Unknowns& at, std::span<double> rows) const {
-    const Move move = move_of_push(k, at);
-    const double length = (move.to.p_OF - move.from.p_OF).norm();
-    const Margin margin = carried(margin_, at[kTravelled]);
-    fill_slacks(move, margin, rows);
-    const double spread = slack_of_spread_pads(search_, move, kSpreadParts, work_);
-    rows[kSpreadRow] = counted(spread) - kWanted;
-    rows[kHeldRow] = held_slack(search_, move.contact, {move.from.p_OF, k == 0});
-    rows[kHeldRow + 1] = held_slack(search_, move.contact, {move.to.p_OF, k == inner()});
-    rows[kRoomRow] = room_of(k, move, margin) / L_ - kLeastRoom;
-    rows[kLengthRow] = (length - least_lengths_[k]) / L_;
-    rows[kPathRow] = (at[kTravelled] + length) / L_;
+  /// Of a push in the planner's space, as costs count it [m].
+  static Vec3 way_of(const Unknowns& at) {
+    return {at[3] - at[0], at[4] - at[1], at[5] - at[2]};
   }
 
-  /// NaN and -infinity, too, are numbers for the library.
-  static double counted(double slack) {
-    return slack >= kWorst ? std::min(slack, -kWorst) : kWorst;
-  }
-
-  /// At the places where the exact check looks: discs of points that turn about a place
-  /// under them have a slack that leaps.
-  void fill_slacks(const Move& move, const Margin& margin, std::span<double> rows) const {
-    const Model& model = *search_.model;
-    const SearchContact& contact = search_.contacts[move.contact];
-    const Vec2 d = move.to.p_OF - move.from.p_OF;
-    const double length = d.norm();
-    const double turn = move.to.theta - move.from.theta;
-    const auto count = static_cast<std::size_t>(
-        std::max(static_cast<int>(kParts), places_along(length, turn)));
-    std::fill(rows.begin(), rows.begin() + kParts, std::numeric_limits<double>::max());
-    for (std::size_t i = 0; i < count; ++i) {
-      const double s = static_cast<double>(i) / static_cast<double>(count - 1);
-      const double slack =
-          exact_stick_test(model, model.contacts[contact.contact], contact.place,
-                           pose_along(move.from, move.to, s), -d / length, length, turn,
-                           margin, s * length)
-              .slack;
-      double& row = rows[i * kParts / count];
-      row = std::min(row, counted(slack) - kWanted);
-    }
-    work_.stick_tests += static_cast<std::int64_t>(count);
-  }
-
-  /// Of a place of the finger axis from the border of the face [m]; negative outside.
-  double depth_at(const Vec2& p_OF) const {
-    const std::vector<Vec2>& face = search_.model->pad_face;
-    const double distance = distance_to_border(face, p_OF, p_OF);
-    return segment_inside(face, p_OF, p_OF) ? distance : -distance;
-  }
-
-  /// By how much the pads may be farther off their way before they leave the object [m].
-  /// A given end is as deep as it is.
-  double room_of(std::size_t k, const Move& move, const Margin& margin) const {
-    constexpr int kPlaces = 9;
-    const Vec2 d = move.to.p_OF - move.from.p_OF;
-    const int first = k == 0 ? 1 : 0;
-    const int last = k == inner() ? kPlaces - 2 : kPlaces - 1;
-    double needed = carried(margin, d.norm()).grasp;
-    if (k == 0) needed = std::min(needed, depth_at(move.from.p_OF));
-    if (k == inner()) needed = std::min(needed, depth_at(move.to.p_OF));
-    double depth = std::numeric_limits<double>::infinity();
-    for (int i = first; i <= last; ++i) {
-      const double s = static_cast<double>(i) / (kPlaces - 1);
-      depth = std::min(depth, depth_at(move.from.p_OF + s * d));
-    }
-    return depth - needed;
+  /// The ways of all pushes, over L.
+  void set_length(NonlinearProgram& program) const {
+    program.objective = [this](std::span<const double> x, std::span<double> gradient) {
+      double length = 0.0;
+      std::ranges::fill(gradient, 0.0);
+      for (std::size_t k = 0; k < count(); ++k) {
+        const Vec3 d = way_of(unknowns_of(k, x));
+        const double way = d.norm();
+        length += way / L_;
+        if (way == 0.0) continue;
+        for (std::size_t i = 0; i < 6 && !gradient.empty(); ++i) {
+          const int variable = variable_of(k, i);
+          if (variable < 0) continue;
+          const double along = d[static_cast<Eigen::Index>(i % 3)] / way;
+          gradient[static_cast<std::size_t>(variable)] += i < 3 ? -along : along;
+        }
+      }
+      return length;
+    };
   }
 
   /// Squares of the moves of the way-points, and what is missing.
-  void set_objective(NonlinearProgram& program) const {
+  void set_moves(NonlinearProgram& program) const {
     const std::size_t moved = 3 * inner();
     const std::vector<double> at(
         program.start.begin(),
@@ -237,7 +200,7 @@ class Trajectory {
     program.constraints = [this](std::span<const double> x, std::span<double> g) {
       for (std::size_t k = 0; k < count(); ++k) {
         const std::span<double> rows = g.subspan(k * kRows, kRows);
-        fill_rows(k, unknowns_of(k, x), rows);
+        rows_->fill(k, unknowns_of(k, x), rows);
         for (std::size_t i = 0; i < kPathRow; ++i) rows[i] += x[lack_of(k)];
         rows[kPathRow] = k == inner() ? 0.0 : rows[kPathRow] - travelled_before(k + 1, x);
       }
@@ -278,12 +241,12 @@ class Trajectory {
     Rows beside;
     for (std::size_t k = 0; k < count(); ++k) {
       const Unknowns at = unknowns_of(k, x);
-      fill_rows(k, at, here);
+      rows_->fill(k, at, here);
       for (std::size_t i = 0; i < at.size(); ++i) {
         if (variable_of(k, i) < 0) continue;
         Unknowns moved = at;
         moved[i] += kDifference * L_;
-        fill_rows(k, moved, beside);
+        rows_->fill(k, moved, beside);
         for (std::size_t row = 0; row < kPathRow; ++row) {
           *value++ = (beside[row] - here[row]) / kDifference;
         }
@@ -295,26 +258,29 @@ class Trajectory {
   }
 
   /// Keeps the pushes to these way-points if the exact check will find that each sticks,
-  /// by itself, and that the pads stay where they have to.
+  /// by itself, and that the pads stay where they have to; of several the shortest.
   bool keep_if_it_sticks(std::span<const double> x) {
     Plan part{.start = grasp_of(stretch_.start, stretch_.psi)};
     Rows rows;
     double travelled = travelled_;
+    double length = 0.0;
     for (std::size_t k = 0; k < count(); ++k) {
       Unknowns at = unknowns_of(k, x);
       at[kTravelled] = travelled;
-      fill_rows(k, at, rows);
-      const auto first = rows.begin();
-      if (*std::min_element(first, first + kHeldRow) < kEnough - kWanted) return false;
-      if (*std::min_element(first + kHeldRow, first + kRoomRow) <= 0.0) return false;
-      if (rows[kRoomRow] < -0.9 * kLeastRoom) return false;
+      rows_->fill(k, at, rows);
+      if (!rows_->sticks(rows)) return false;
       travelled = L_ * rows[kPathRow];
-      append_move(search_, move_of_push(k, at), part);
+      length += way_of(at).norm();
+      append_move(search_, rows_->move_of_push(k, at), part);
     }
-    repaired_ = std::move(part.pushes);
+    if (length < shortest_) {
+      shortest_ = length;
+      kept_ = std::move(part.pushes);
+    }
     return true;
   }
 
+  Aim aim_;
   const SearchModel& search_;
   const Limits& limits_;
   Work& work_;
@@ -322,19 +288,30 @@ class Trajectory {
   double travelled_;  // [m] before the stretch
   double L_;
   Stretch stretch_;
-  std::vector<double> least_lengths_;  // [m] by push
-  std::vector<PlannedPush> repaired_;
+  std::optional<TrajectoryRows> rows_;
+  std::vector<PlannedPush> kept_;
+  double shortest_ = std::numeric_limits<double>::infinity();  // [m] their length
 };
+
+bool change(Aim aim, const SearchModel& search, const Limits& limits, Work& work,
+            Plan& plan) {
+  if (!ipopt_is_built()) return false;
+  return repair_stretches(
+      plan, kMostPushes, [&](std::vector<PlannedPush>& pushes, double travelled) {
+        return Trajectory(aim, search, limits, work, plan.margin, travelled).run(pushes);
+      });
+}
 
 }  // namespace
 
 bool repair_as_trajectory(const SearchModel& search, const Limits& limits, Work& work,
                           Plan& plan) {
-  if (!ipopt_is_built()) return false;
-  return repair_stretches(
-      plan, kMostPushes, [&](std::vector<PlannedPush>& pushes, double travelled) {
-        return Trajectory(search, limits, work, plan.margin, travelled).run(pushes);
-      });
+  return change(Aim::kRepair, search, limits, work, plan);
+}
+
+bool shorten_as_trajectory(const SearchModel& search, const Limits& limits, Work& work,
+                           Plan& plan) {
+  return change(Aim::kShorten, search, limits, work, plan);
 }
 
 }  // namespace prehensile

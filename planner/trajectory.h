@@ -1,5 +1,5 @@
-/// Repairs a plan that its exact check rejects as one trajectory, with all its way-points
-/// at once.
+/// Changes a plan as one trajectory, with all its way-points at once: repairs one that
+/// its exact check rejects, shortens one that it accepts.
 #pragma once
 
 #include "planner/limits.h"
@@ -23,5 +23,11 @@ namespace prehensile {
 /// to pass the exact check. Deterministic.
 bool repair_as_trajectory(const SearchModel& search, const Limits& limits, Work& work,
                           Plan& plan);
+
+/// The same for a plan that sticks, with the path travelled in the stead of the distance
+/// from its way-points, and nothing that a push may miss: what polish() does where it has
+/// too many pushes for that, or where the closed form knows less than the exact check.
+bool shorten_as_trajectory(const SearchModel& search, const Limits& limits, Work& work,
+                           Plan& plan);
 
 }  // namespace prehensile

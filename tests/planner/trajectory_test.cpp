@@ -1,8 +1,13 @@
 #include "planner/trajectory.h"
 
+#include <algorithm>
+#include <cstdio>
+
 #include <gtest/gtest.h>
 
 #include "optimisation/nonlinear_program.h"
+#include "planner/costs.h"
+#include "planner/polish.h"
 #include "planner/push_search.h"
 #include "planner/repair.h"
 #include "planner/stretch.h"
@@ -61,6 +66,46 @@ TEST_F(Trajectory, IsTheSameEveryTime) {
   for (std::size_t i = 0; i < a.pushes.size(); ++i) {
     EXPECT_EQ(a.pushes[i].end, b.pushes[i].end) << i;
   }
+}
+
+/// Plans that sub-plex cannot shorten any further: its angles are those of the closed
+/// form, which takes pads that are clipped for whole ones, or drift for straight.
+TEST_F(Trajectory, ShortensPlansThatStick) {
+  FixtureRange slender;
+  slender.pad = FixturePad::kRectangle;
+  slender.goals = GoalsFrom::kRandom;
+  int plans = 0;
+  int shorter = 0;
+  double most = 0.0;
+  for (int i = 0; i < 24; ++i) {
+    const auto index = static_cast<std::uint64_t>(i);
+    RejectedPlan one(i % 2 == 0 ? wide_tee(i) : random_fixture(slender, 1, index)->scene);
+    if (!one.plan.usable() || one.plan.pushes.size() < 2) continue;
+    const Limits limits(one.options, one.work);
+    polish_with_real_pads(one.search, limits, one.work, one.plan);
+    if (!one.passes(one.plan)) continue;
+    ++plans;
+    account(one.model, one.plan);
+    Plan other = one.plan;
+    if (!shorten_as_trajectory(one.search, limits, one.work, other)) continue;
+    ++shorter;
+    EXPECT_TRUE(one.passes(other)) << i;
+    testing::expect_same_way(other, one.plan);
+    account(one.model, other);
+    EXPECT_LT(other.cost, one.plan.cost) << i;
+    most = std::max(most, one.plan.cost - other.cost);
+  }
+  EXPECT_GE(plans, 10);
+  EXPECT_GE(shorter, 5);
+  EXPECT_GT(most, 0.02);
+  std::printf("%d of %d plans are shorter, by up to %.3f\n", shorter, plans, most);
+}
+
+TEST_F(Trajectory, DoesNotShortenPlansThatSlip) {
+  RejectedPlan one(wide_tee(439));
+  ASSERT_FALSE(one.passes(one.plan));
+  const Limits limits(one.options, one.work);
+  EXPECT_FALSE(shorten_as_trajectory(one.search, limits, one.work, one.plan));
 }
 
 TEST_F(Trajectory, LeavesPlansAloneThatStick) {

@@ -57,6 +57,13 @@ bool is_far_from_bound(const SearchModel& search, const Plan& plan) {
   return plan.cost > kGoodEnough * guide_bound(*search.model, plan.start, goal);
 }
 
+/// A plan that its exact check has shortened lies on the border of what its margin
+/// allows: it has to cost less than this share of the one before.
+constexpr double kWorthLessSlack = 0.98;
+
+/// Share of the cost that is way, above which a tenth of the way is worth as much.
+constexpr double kLongWay = 0.18;
+
 /// A plan found, a run of one placement in its stead, and three pushes in the stead of
 /// both, each polished; and the best of them by what the real pads allow, then by what
 /// the exact check does where the closed form knows less, where it may still be far from
@@ -83,10 +90,13 @@ std::vector<Plan> polished(const SearchModel& search, const Limits& limits, Work
   if (is_far_from_bound(search, plans.front())) {
     Plan best = plans.front();
     polish_with_real_pads(search, limits, work, best);
+    account(*search.model, best);
     plans.push_back(best);
-    const bool knows_all = search.exact_everywhere && search.margin.is_none();
-    if (!knows_all && shorten_as_trajectory(search, limits, work, best)) {
-      plans.push_back(best);
+    const bool is_long = best.cost - best.placements > kLongWay * best.cost;
+    const bool may_gain = is_long && (!search.margin.is_none() || limits.improves());
+    if (may_gain && shorten_as_trajectory(search, limits, work, best)) {
+      account(*search.model, best);
+      if (best.cost < kWorthLessSlack * plans.back().cost) plans.push_back(best);
     }
     sort();
   }

@@ -315,17 +315,46 @@ double move_slack(const SearchModel& search, const Move& move, int points,
   return std::min(least, slack_of_spread_pads(search, move, kSpreadParts, work));
 }
 
+namespace {
+
+/// By how much the part of a path that begins at the share `from_s` and ends at `to_s` is
+/// farther from the border than it has to be [m].
+double room_of_part(const Model& model, const PathEnd& from, const PathEnd& to,
+                    const Margin& margin, double from_s, double to_s, double most) {
+  const Vec2 d = to.p_OF - from.p_OF;
+  const double needed = std::min(most, carried(margin, to_s * d.norm()).grasp);
+  return distance_to_border(model.pad_face, from.p_OF + from_s * d,
+                            from.p_OF + to_s * d) -
+         needed;
+}
+
+}  // namespace
+
+double path_room(const Model& model, const PathEnd& from, const PathEnd& to,
+                 const Margin& margin) noexcept {
+  constexpr int kParts = 8;
+  constexpr double kRounding = 1e-9;  // [m]
+  double most = std::numeric_limits<double>::infinity();
+  for (const PathEnd& end : {from, to}) {
+    if (!end.given) continue;
+    most = std::min(most, distance_to_border(model.pad_face, end.p_OF, end.p_OF));
+  }
+  const double whole = room_of_part(model, from, to, margin, 0.0, 1.0, most);
+  if (whole >= -kRounding || margin.tilt == 0.0) return whole + kRounding;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kParts; ++i) {
+    const double s = static_cast<double>(i) / kParts;
+    least =
+        std::min(least, room_of_part(model, from, to, margin, s, s + 1.0 / kParts, most));
+  }
+  return least + kRounding;
+}
+
 bool path_on_object(const Model& model, const PathEnd& from, const PathEnd& to,
                     const Margin& margin) noexcept {
   if (!segment_inside(model.pad_face, from.p_OF, to.p_OF)) return false;
-  double room = carried(margin, (to.p_OF - from.p_OF).norm()).grasp;
-  if (room == 0.0) return true;
-  for (const PathEnd& end : {from, to}) {
-    if (!end.given) continue;
-    room = std::min(room, distance_to_border(model.pad_face, end.p_OF, end.p_OF));
-  }
-  constexpr double kRounding = 1e-9;  // [m]
-  return distance_to_border(model.pad_face, from.p_OF, to.p_OF) >= room - kRounding;
+  if (margin.grasp + margin.tilt == 0.0) return true;
+  return path_room(model, from, to, margin) >= 0.0;
 }
 
 bool segment_on_object(const Model& model, const Vec2& from_p_OF,

@@ -143,6 +143,12 @@ struct PathEnd {
 bool path_on_object(const Model& model, const PathEnd& from, const PathEnd& to,
                     const Margin& margin) noexcept;
 
+/// By how much a straight path inside the face keeps farther from its border than that
+/// asks of it [m]; what tilted pushes carry the finger axis off counts by eighths of the
+/// path. No heap.
+double path_room(const Model& model, const PathEnd& from, const PathEnd& to,
+                 const Margin& margin) noexcept;
+
 /// The finger axis stays on the object along the straight segment (in O), border
 /// included. Exact for any simple outline, up to rounding. No heap.
 bool segment_on_object(const Model& model, const Vec2& from_p_OF,

@@ -24,8 +24,7 @@ constexpr int kIterations = 100;
 constexpr int kFewIterations = 20;  // to shorten: most of the gain comes first
 constexpr double kTolerance = 1e-6;
 constexpr double kReach = 0.15;       // of a way-point from its place, over L
-constexpr double kWanted = 0.01;      // slack of each push that is repaired
-constexpr double kSpare = 1e-4;       // slack of each push that is shortened
+constexpr double kWanted = 0.01;      // slack of each push
 constexpr double kLeastShare = 0.5;   // of the length of a push, which has to stay
 constexpr double kWorthwhile = 1e-4;  // relative gain below which the plan stays
 constexpr double kPrice = 10.0;       // of what a push misses, against squares of moves
@@ -112,8 +111,7 @@ class Trajectory {
       travelled += length;
       if (least_lengths.size() < count()) add(travelled / L_, -kUnbounded, kUnbounded);
     }
-    rows_.emplace(search_, work_, margin_, stretch_,
-                  aim_ == Aim::kRepair ? kWanted : kSpare, std::move(least_lengths));
+    rows_.emplace(search_, work_, margin_, stretch_, kWanted, std::move(least_lengths));
     Rows rows;
     for (std::size_t k = 0; k < count(); ++k) {
       rows_->fill(k, unknowns_of(k, program.start), rows);

@@ -80,20 +80,20 @@ double TrajectoryRows::depth_at(const Vec2& p_OF) const {
 double TrajectoryRows::room_of(std::size_t k, const Move& move,
                                const Margin& margin) const {
   constexpr int kPlaces = 9;
-  const std::vector<Vec2>& face = search_.model->pad_face;
+  const Model& model = *search_.model;
   const Vec2& from = move.from.p_OF;
   const Vec2& to = move.to.p_OF;
-  double needed =
-      carried(margin, (to - from).norm()).grasp + kSpareRoom * search_.model->L;
-  if (k == 0) needed = std::min(needed, depth_at(from));
-  if (k == last()) needed = std::min(needed, depth_at(to));
-  if (segment_inside(face, from, to)) return distance_to_border(face, from, to) - needed;
+  Margin wanted = margin;
+  wanted.grasp += kSpareRoom * model.L;
+  if (segment_inside(model.pad_face, from, to)) {
+    return path_room(model, {from, k == 0}, {to, k == last()}, wanted);
+  }
   double depth = 0.0;
   for (int i = 0; i < kPlaces; ++i) {
     const double s = static_cast<double>(i) / (kPlaces - 1);
     depth = std::min(depth, depth_at(from + s * (to - from)));
   }
-  return depth - needed;
+  return depth - carried(wanted, (to - from).norm()).grasp;
 }
 
 bool TrajectoryRows::sticks(const Rows& rows) const {

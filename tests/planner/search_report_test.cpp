@@ -12,16 +12,10 @@
 namespace prehensile {
 namespace {
 
-/// A line pad and slippery walls: a search of some hundred milliseconds at least, whose
-/// first plan is not its best.
+/// A way of many turns: a search of some hundred milliseconds at least, whose first plan is not
+/// its best.
 Scene long_search() {
-  Scene scene = published_tee(43);
-  scene.gripper.pad = LinePad{0.02, 0.5};
-  for (Pusher& pusher : scene.pushers) pusher.friction = 0.15;
-  scene.goal->x = -0.03;
-  scene.goal->y = 0.0;
-  scene.goal->theta = 2.5;
-  return scene;
+  return random_among_walls(false, RegraspRange::kWide, true, 1, 233);
 }
 
 TEST(Progress, TellsMoreAndMoreAndChangesNothing) {

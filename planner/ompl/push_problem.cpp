@@ -22,8 +22,8 @@ namespace oc = ompl::control;
 constexpr double kOptimal = 1e-9;
 
 std::vector<PushState> members_of(const PushSteps& steps, const Grasp& start) {
-  const GoalPlaces places = goal_places(steps.model(), steps.goal(), flat_state(start),
-                                        steps.search().margin);
+  const GoalPlaces places =
+      goal_places(steps.model(), steps.goal(), flat_state(start), steps.search().margin);
   const double psi = start.psi + roll_needed(steps.goal(), start.psi);
   std::vector<PushState> members;
   for (int turn = 0; turn < 3; ++turn) {

@@ -12,8 +12,8 @@
 namespace prehensile {
 namespace {
 
-/// A way of many turns: a search of some hundred milliseconds at least, whose first plan is not
-/// its best.
+/// A way of many turns: a search of some hundred milliseconds at least, whose first plan
+/// is not its best.
 Scene long_search() {
   return random_among_walls(false, RegraspRange::kWide, true, 1, 233);
 }

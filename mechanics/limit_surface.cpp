@@ -16,15 +16,15 @@ class UnitSphere {
 
   double dissipation(const PlanarTwist& u) const { return u.norm(); }
 
-  PlanarWrench resistance(const PlanarTwist& u, const Pivot&) const {
+  PlanarWrench resistance(const PlanarTwist& u, const PivotPoint&) const {
     const double square = u.squaredNorm();
     return (square > 0.0 ? 1.0 / std::sqrt(square) : 0.0) * u;
   }
 
-  Pivot pivot_at(const PlanarTwist&) const { return {}; }
+  PivotPoint pivot_at(const PlanarTwist&) const { return {}; }
   void choose_pivot_force(const ScaledPush&, Motion&) const {}
 
-  PlanarTwist scaled_twist(const PlanarTwist& u, const Pivot&, double scale) const {
+  PlanarTwist scaled_twist(const PlanarTwist& u, const PivotPoint&, double scale) const {
     return scale * u;
   }
 

@@ -35,7 +35,7 @@ struct LoadFactor {
   PlanarWrench gap;  ///< gradient D - w - lambda e: zero at the exit
   Eigen::Matrix3d hessian;
 
-  LoadFactor(const PadColumns& pads, const PlanarWrench& w, const PlanarWrench& e,
+  LoadFactor(const PaddedColumns& pads, const PlanarWrench& w, const PlanarWrench& e,
              const PlanarTwist& unit)
       : u(unit), along(e.dot(unit)) {
     const Curvature here = curvature(pads, u);
@@ -237,7 +237,7 @@ bool PadFriction::holds(const PlanarWrench& w, PlanarTwist* unsupported) const n
   return false;
 }
 
-void PadFriction::moving_forces(const PlanarTwist& u, const Pivot& pivot,
+void PadFriction::moving_forces(const PlanarTwist& u, const PivotPoint& pivot,
                                 Vec2* forces) const noexcept {
   const double pivot_bound = pivot.index < 0 ? 0.0 : merged_bound(pivot.index);
   for (int j = 0; j < count_; ++j) {

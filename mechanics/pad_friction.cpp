@@ -12,7 +12,7 @@ using pad_kernels::resisting_wrench;
 
 namespace {
 
-constexpr int kLanes = PadColumns::kLanes;
+constexpr int kLanes = PaddedColumns::kLanes;
 constexpr int kLineSteps = 200;
 
 /// Distance of a point from the centre of rotation, in units of the pads, below which the
@@ -92,13 +92,13 @@ double PadFriction::dissipation(const PlanarTwist& u) const noexcept {
 }
 
 PlanarWrench PadFriction::resistance(const PlanarTwist& u,
-                                     const Pivot& pivot) const noexcept {
+                                     const PivotPoint& pivot) const noexcept {
   const PlanarWrench smooth = resisting_wrench(points(), u);
   if (pivot.index < 0) return smooth;
   return smooth + wrench_of(at(pivot.index), pivot.force);
 }
 
-Pivot PadFriction::pivot_at(const PlanarTwist& u) const noexcept {
+PivotPoint PadFriction::pivot_at(const PlanarTwist& u) const noexcept {
   if (u[2] == 0.0) return {};
   const int j = nearest_to_centre(u);
   const double speed = point_velocity(u, at(j)).norm();
@@ -110,7 +110,7 @@ PlanarTwist PadFriction::rotation_about(int j, double omega) const {
   return {omega * y_[j], -(omega * x_[j]), omega};
 }
 
-PlanarTwist PadFriction::scaled_twist(const PlanarTwist& u, const Pivot& pivot,
+PlanarTwist PadFriction::scaled_twist(const PlanarTwist& u, const PivotPoint& pivot,
                                       double scale) const noexcept {
   if (pivot.index < 0) return scale * u;
   return rotation_about(pivot.index, scale * u[2]);

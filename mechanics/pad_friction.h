@@ -3,7 +3,7 @@
 ///
 /// D(u) = sum b_j |c_j(u)|, c_j = (v_x - w y_j, v_y + w x_j). Points about the centre of
 /// the bounds, sum b_j = 1, mean square lever 1. D is smooth except where a point is the
-/// centre of rotation; there its force is any vector within its bound (`Pivot`).
+/// centre of rotation; there its force is any vector within its bound (`PivotPoint`).
 #pragma once
 
 #include <Eigen/Core>
@@ -42,10 +42,10 @@ class PadFriction {
   double dissipation(const PlanarTwist& u) const noexcept;
 
   /// Gradient of D, with the pivot's force in place of its undefined term.
-  PlanarWrench resistance(const PlanarTwist& u, const Pivot& pivot) const noexcept;
+  PlanarWrench resistance(const PlanarTwist& u, const PivotPoint& pivot) const noexcept;
 
   /// The pad point at the centre of rotation of u, if there is one.
-  Pivot pivot_at(const PlanarTwist& u) const noexcept;
+  PivotPoint pivot_at(const PlanarTwist& u) const noexcept;
 
   RayExit exit(const PlanarWrench& w, const PlanarWrench& e,
                const PlanarTwist* guess) const noexcept;
@@ -65,7 +65,7 @@ class PadFriction {
   bool holds(const PlanarWrench& w, PlanarTwist* unsupported) const noexcept;
 
   /// u times a positive scale; a pivot stays exactly at rest.
-  PlanarTwist scaled_twist(const PlanarTwist& u, const Pivot& pivot,
+  PlanarTwist scaled_twist(const PlanarTwist& u, const PivotPoint& pivot,
                            double scale) const noexcept;
 
   /// A pivot whose force is not determined by the motion: the smallest force with which
@@ -73,7 +73,7 @@ class PadFriction {
   void choose_pivot_force(const ScaledPush& push, Motion& motion) const noexcept;
 
   /// Resisting force of every point at twist u.
-  void moving_forces(const PlanarTwist& u, const Pivot& pivot,
+  void moving_forces(const PlanarTwist& u, const PivotPoint& pivot,
                      Vec2* forces) const noexcept;
 
   /// Resisting forces by which the pads, at rest, balance w: those at the limit in the
@@ -84,7 +84,9 @@ class PadFriction {
   double merged_bound(int j) const noexcept;
 
  private:
-  PadColumns points() const { return {x_.data(), y_.data(), b_.data(), padded_, &sums_}; }
+  PaddedColumns points() const {
+    return {x_.data(), y_.data(), b_.data(), padded_, &sums_};
+  }
   PlanarTwist rotation_about(int j, double omega) const;
   int nearest_to_centre(const PlanarTwist& u) const noexcept;
 

@@ -14,7 +14,7 @@
 namespace prehensile {
 
 /// Columns padded with bound 0 to whole lanes, aligned to 32 bytes.
-struct PadColumns {
+struct PaddedColumns {
   static constexpr int kLanes = 4;
   const double* x;
   const double* y;
@@ -25,7 +25,7 @@ struct PadColumns {
 
 namespace pad_kernels {
 
-using Lanes = Eigen::Array<double, PadColumns::kLanes, 1>;
+using Lanes = Eigen::Array<double, PaddedColumns::kLanes, 1>;
 using Column = Eigen::Map<const Lanes, Eigen::Aligned32>;
 
 /// Keeps 0/0 away from points at rest; smaller than the square of any rate that counts.
@@ -33,7 +33,7 @@ inline constexpr double kTiny = 1e-200;
 
 struct PointLanes {
   Lanes x, y, b, cx, cy, square;
-  PointLanes(const PadColumns& pads, int j, const PlanarTwist& u)
+  PointLanes(const PaddedColumns& pads, int j, const PlanarTwist& u)
       : x(Column(pads.x + j)), y(Column(pads.y + j)), b(Column(pads.b + j)) {
     cx = u[0] - u[2] * y;
     cy = u[1] + u[2] * x;
@@ -42,12 +42,12 @@ struct PointLanes {
 };
 
 /// Gradient of D at u.
-inline PlanarWrench resisting_wrench(const PadColumns& pads, const PlanarTwist& u) {
+inline PlanarWrench resisting_wrench(const PaddedColumns& pads, const PlanarTwist& u) {
   ++*pads.sums;
   Lanes fx = Lanes::Zero();
   Lanes fy = Lanes::Zero();
   Lanes m = Lanes::Zero();
-  for (int j = 0; j < pads.padded; j += PadColumns::kLanes) {
+  for (int j = 0; j < pads.padded; j += PaddedColumns::kLanes) {
     const PointLanes at(pads, j, u);
     const Lanes per_rate = at.b / at.square.sqrt();
     const Lanes gx = per_rate * at.cx;
@@ -65,12 +65,12 @@ struct LineSlope {
   double second;
 };
 
-inline LineSlope line_slope(const PadColumns& pads, const PlanarTwist& u,
+inline LineSlope line_slope(const PaddedColumns& pads, const PlanarTwist& u,
                             const PlanarTwist& d) {
   ++*pads.sums;
   Lanes first = Lanes::Zero();
   Lanes second = Lanes::Zero();
-  for (int j = 0; j < pads.padded; j += PadColumns::kLanes) {
+  for (int j = 0; j < pads.padded; j += PaddedColumns::kLanes) {
     const PointLanes at(pads, j, u);
     const Lanes dx = d[0] - d[2] * at.y;
     const Lanes dy = d[1] + d[2] * at.x;
@@ -89,7 +89,7 @@ struct Curvature {
   Eigen::Matrix3d hessian;
 };
 
-inline Curvature curvature(const PadColumns& pads, const PlanarTwist& u) {
+inline Curvature curvature(const PaddedColumns& pads, const PlanarTwist& u) {
   ++*pads.sums;
   Lanes fx = Lanes::Zero();
   Lanes fy = Lanes::Zero();
@@ -100,7 +100,7 @@ inline Curvature curvature(const PadColumns& pads, const PlanarTwist& u) {
   Lanes xm = Lanes::Zero();
   Lanes ym = Lanes::Zero();
   Lanes mm = Lanes::Zero();
-  for (int j = 0; j < pads.padded; j += PadColumns::kLanes) {
+  for (int j = 0; j < pads.padded; j += PaddedColumns::kLanes) {
     const PointLanes at(pads, j, u);
     const Lanes per_rate = at.b / at.square.sqrt();
     const Lanes gx = per_rate * at.cx;

@@ -175,7 +175,7 @@ void solve_inertial(const PlanarGrasp& grasp, Problem& problem,
   answer.status = InstantStatus::kOutOfIterations;
   PlanarTwist unsupported;
   if (problem.pads.holds(problem.push.w_g, &unsupported)) return;
-  const Verdict fall = judge_unheld(problem.pads, problem.push, unsupported);
+  const PushVerdict fall = judge_unheld(problem.pads, problem.push, unsupported);
   if (fall.status == InstantStatus::kDynamic) report(problem.push, fall, answer);
 }
 
@@ -185,8 +185,8 @@ void solve_quasi_static(const PlanarGrasp& grasp, Problem& problem,
   Motion known;
   const bool follows =
       warm != nullptr && warm->valid && follow(problem, warm->last, known);
-  Verdict verdict = judge_push(problem.pads, problem.push, follows ? &known : nullptr,
-                               options.probe_multiplicity);
+  PushVerdict verdict = judge_push(problem.pads, problem.push, follows ? &known : nullptr,
+                                   options.probe_multiplicity);
   if (!usable(verdict.status) && problem.pads.merge_near_points()) {
     verdict = judge_push(problem.pads, problem.push, nullptr, options.probe_multiplicity);
   }

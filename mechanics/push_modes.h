@@ -33,7 +33,7 @@ struct RayExit {
   bool hit = false;  ///< false: none, or not found; then u is where the search ended
   double lambda = 0.0;
   PlanarTwist u = PlanarTwist::Zero();
-  Pivot pivot;
+  PivotPoint pivot;
   int steps = 0;
 };
 
@@ -41,7 +41,7 @@ struct RayExit {
 struct LowestOnLine {
   bool bounded = false;
   PlanarTwist u = PlanarTwist::Zero();
-  Pivot pivot;
+  PivotPoint pivot;
   int steps = 0;
 };
 

@@ -5,7 +5,7 @@
 
 namespace prehensile {
 
-struct Verdict {
+struct PushVerdict {
   InstantStatus status = InstantStatus::kOutOfIterations;
   Motion motion;
   bool has_evidence = false;
@@ -90,9 +90,9 @@ bool carried_at_rest(const Body& body, const ScaledPush& push, Motion& motion) {
 /// Gravity is more than the pads can hold: the pusher carries the object, or it falls.
 /// Without a status, `evidence` still shows that gravity is not held.
 template <class Body>
-Verdict judge_unheld(const Body& body, const ScaledPush& push,
-                     const PlanarTwist& unsupported) {
-  Verdict verdict;
+PushVerdict judge_unheld(const Body& body, const ScaledPush& push,
+                         const PlanarTwist& unsupported) {
+  PushVerdict verdict;
   verdict.has_evidence = true;
   if (find_fall(body, push.w_g, unsupported, pusher_cone(push, true), verdict.evidence)) {
     verdict.status = InstantStatus::kDynamic;
@@ -121,8 +121,8 @@ Verdict judge_unheld(const Body& body, const ScaledPush& push,
 /// A pusher that approaches at no point: the object rests in the pads. With `probe`, also
 /// looks for the object being dragged along by friction, which a receding pusher can do.
 template <class Body>
-Verdict judge_receding(const Body& body, const ScaledPush& push, bool probe) {
-  Verdict verdict;
+PushVerdict judge_receding(const Body& body, const ScaledPush& push, bool probe) {
+  PushVerdict verdict;
   verdict.status = InstantStatus::kSeparated;
   for (int i = 0; i < push.count; ++i) {
     if (push.approach(i) >= -kGrazing) verdict.status = InstantStatus::kHolds;
@@ -162,8 +162,8 @@ inline bool swings_off(const ScaledPush& push, PlanarTwist& swing) {
 /// The quasi-static instant. `known` is a motion found before, or null. `probe` looks for
 /// more motions even where the pads hold gravity and there should be only one.
 template <class Body>
-Verdict judge_push(const Body& body, const ScaledPush& push, const Motion* known,
-                   bool probe) {
+PushVerdict judge_push(const Body& body, const ScaledPush& push, const Motion* known,
+                       bool probe) {
   PlanarTwist unsupported;
   const bool held = body.holds(push.w_g, &unsupported);
   if (!held) return judge_unheld(body, push, unsupported);
@@ -171,7 +171,7 @@ Verdict judge_push(const Body& body, const ScaledPush& push, const Motion* known
   if (push.count == 2) approach = std::max(approach, push.approach(1));
   if (approach <= kGrazing) return judge_receding(body, push, probe);
 
-  Verdict verdict;
+  PushVerdict verdict;
   const PushModes<Body> modes(body, push);
   bool found = known != nullptr;
   if (found) {
@@ -197,7 +197,7 @@ Verdict judge_push(const Body& body, const ScaledPush& push, const Motion* known
 }
 
 /// Writes a verdict, except the finger points, into an answer.
-inline void report(const ScaledPush& push, const Verdict& verdict,
+inline void report(const ScaledPush& push, const PushVerdict& verdict,
                    PlanarInstant& answer) {
   answer.status = verdict.status;
   if (usable(verdict.status) || verdict.status == InstantStatus::kAmbiguous) {

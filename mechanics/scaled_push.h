@@ -50,7 +50,7 @@ PlanarTwist twist_in_hand(const ScaledPush& push, const PlanarTwist& u) noexcept
 PlanarWrench wrench_in_hand(const ScaledPush& push, const PlanarWrench& w) noexcept;
 
 /// A finger point at the centre of rotation: it may carry any force within its bound.
-struct Pivot {
+struct PivotPoint {
   int index = -1;             ///< of the pad point; -1: none
   Vec2 force = Vec2::Zero();  ///< resistance that it contributes (object on pads)
 };
@@ -62,7 +62,7 @@ struct Motion {
   Support support = Support::kNone;
   int slip = 0;  ///< sign of the slip of the object along t; 0: sticks
   PlanarTwist u = PlanarTwist::Zero();
-  Pivot pivot;
+  PivotPoint pivot;
 
   PlanarWrench w = PlanarWrench::Zero();  ///< pusher on object
   std::array<double, 2> normal{0.0, 0.0};

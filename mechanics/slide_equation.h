@@ -9,7 +9,7 @@ namespace prehensile {
 
 /// A SlideQuestion over pads.
 struct SlideEquation {
-  PadColumns pads;
+  PaddedColumns pads;
   SlideQuestion question;
 
   /// Newton's method from s; false if it does not settle.

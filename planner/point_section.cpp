@@ -177,14 +177,14 @@ FrictionBox widened(FrictionBox box) {
 
 /// Where the centre of rotation is on a pad point: the kappa, and the direction of
 /// motion.
-struct Pivot {
+struct TurningPlace {
   int point;
   double kappa;
   Vec2 e;
 };
 
-std::vector<Pivot> pivots_of(const ContactPoints& points, double c) {
-  std::vector<Pivot> pivots;
+std::vector<TurningPlace> pivots_of(const ContactPoints& points, double c) {
+  std::vector<TurningPlace> pivots;
   for (int j = 0; j < points.count; ++j) {
     const Vec2 r(points.x[j], points.y[j]);
     if (r.norm() < 1e-9 * c) continue;
@@ -196,12 +196,12 @@ std::vector<Pivot> pivots_of(const ContactPoints& points, double c) {
 }
 
 /// Looked at of pads of points, in ascending order.
-std::vector<double> kappas_of(const std::vector<Pivot>& pivots) {
+std::vector<double> kappas_of(const std::vector<TurningPlace>& pivots) {
   std::vector<double> kappas;
   for (int i = -kDense - kSparse; i <= kDense + kSparse; ++i) {
     kappas.push_back(i < 0 ? -kappa_at(-i) : kappa_at(i));
   }
-  for (const Pivot& pivot : pivots) kappas.push_back(pivot.kappa);
+  for (const TurningPlace& pivot : pivots) kappas.push_back(pivot.kappa);
   std::ranges::sort(kappas);
   const auto same = [](double a, double b) { return b - a < 1e-12 * std::abs(b); };
   kappas.erase(std::unique(kappas.begin(), kappas.end(), same), kappas.end());
@@ -210,7 +210,7 @@ std::vector<double> kappas_of(const std::vector<Pivot>& pivots) {
 
 /// The motions in a sector, for each of the kappas.
 std::vector<Motions> rows_of(const ContactPoints& points, double c,
-                             const std::vector<Pivot>& pivots,
+                             const std::vector<TurningPlace>& pivots,
                              const std::vector<double>& kappas, const Sector& sector) {
   std::vector<Motions> rows;
   rows.reserve(kappas.size());
@@ -221,7 +221,7 @@ std::vector<Motions> rows_of(const ContactPoints& points, double c,
       keep(friction_of(points, c, kappa, rotated(angle, Vec2(1.0, 0.0))), rows.back());
     }
   }
-  for (const Pivot& pivot : pivots) {
+  for (const TurningPlace& pivot : pivots) {
     if (!sector.is_near(std::atan2(pivot.e.y(), pivot.e.x()))) continue;
     const auto at =
         std::ranges::lower_bound(kappas, pivot.kappa - 1e-9 * std::abs(pivot.kappa));
@@ -255,7 +255,7 @@ bool alike_at_quarter_turns(const ContactPoints& points, double c) {
 
 PadSection section_of_points(const ContactPoints& points, double c) {
   PadSection section{.slow_ratio = kSlowRatio, .fast_ratio = kFastRatio};
-  const std::vector<Pivot> pivots = pivots_of(points, c);
+  const std::vector<TurningPlace> pivots = pivots_of(points, c);
   const std::vector<double> kappas = kappas_of(pivots);
   const int quarters = quarters_of(points, c);
   const int sectors = quarters == 1 ? 1 : kSectors * quarters;

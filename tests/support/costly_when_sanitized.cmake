@@ -47,6 +47,7 @@ set(costly_when_sanitized
   Planner.SolvesConstructedCans
   Planner.SolvesConstructedTees
   Planner.WithoutTheHelpOfGravityPushesStickWithoutGravity
+  PointMargin.AStartThatMayFallHasAPlanWithAMargin
   PointMargin.PlansWithAMarginSurviveTheBox
   ProblemList.ProblemsAreSoundAndTheSameEachTime
   Proofs.GoalBesideTheMiddleLineOfACan
@@ -85,6 +86,7 @@ set(costly_when_sanitized
   SpatialSensitivity.HoldsOnOneSideAtAChangeOfMode
   Steering.MovesOfOtherPadsSurviveADenseCheck
   Trajectory.MakesPushesStickThatSlipWithinTheMargin
+  Trajectory.ShortensPlansThatStick
   Transit.ArmsKeepClearOfThePosts
   Transit.FindsNoTurnThatTheGraspDoesNotHold
   Turn.FeasibleProblemsHaveNone

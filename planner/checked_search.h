@@ -24,7 +24,7 @@ struct Found {
 Plan search_and_check(const Model& model, const PlanOptions& options,
                       const Margin& margin, Work& work, Found& found);
 
-/// Leaves of a plan that no check lets pass why that is.
+/// Empties a plan that fails a check, and says why.
 void set_undecided(Plan& plan, std::string message);
 
 }  // namespace prehensile

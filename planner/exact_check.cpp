@@ -203,8 +203,7 @@ bool given_may_fall(const Model& model, const Plan& plan) {
     return holding_slack(model, finger_in_object(grasp.X_HO), g_O, plan.margin) > 0.0;
   };
   return !is_held(plan.pushes.front(), plan.start) ||
-         !is_held(plan.pushes.back(), plan.pushes.back().end) ||
-         point_plan_may_fall(model, plan);
+         !is_held(plan.pushes.back(), plan.pushes.back().end);
 }
 
 namespace {

@@ -27,7 +27,7 @@ bool stays_on_object(const Model& model, const Plan& plan, std::string* why);
 
 /// Whether somewhere within the margin the fingers alone do not hold the object where the
 /// plan begins or ends: no plan can make more of a start and a goal that are given. By
-/// the ellipsoid, of pushes by points also by the pads; not of cans.
+/// the ellipsoid; not of cans.
 bool given_may_fall(const Model& model, const Plan& plan);
 
 /// Path of the finger axis in the object [m]; 0 for a roll.

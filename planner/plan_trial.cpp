@@ -64,7 +64,6 @@ PlanTrial try_plan(const Model& model, const Plan& plan, const UncertaintyBox& b
     set_contact(varied.push, contact);
     const Transition done = apply(*other, varied.start, varied.push, options);
     trial.status = done.status;
-    trial.done = done.done;
     const double psi = trial.end.psi + done.end.psi;
     trial.end = rolls ? turned(done.end, askew + askew_here) : done.end;
     trial.end.psi = psi;

@@ -12,17 +12,11 @@ struct PlanTrial {
   bool is_scene = true;  ///< false: the box reaches beyond what a scene may be
   int failed_push = -1;  ///< the first that did not complete, or slipped; -1: none
   TransitionStatus status = TransitionStatus::kNotRun;  ///< of that push, or the last one
-  double done = 0.0;                                    ///< share of it, 0..1
   double slipped = 0.0;                                 ///< [m] most along any pusher
   bool sticks = false;      ///< every push completed without slip
   bool reaches = false;     ///< and the pose at the end is a goal
   Grasp end;                ///< where the last push left the object
   double push_force = 0.0;  ///< [N] greatest
-
-  /// The fingers do not hold the object where it is given, before any push.
-  bool falls_at_start() const {
-    return failed_push == 0 && status == TransitionStatus::kFalls && done == 0.0;
-  }
 };
 
 /// Longest path of a contact along a pusher that counts as sticking [m].

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kSameAngle = 1e-9;  // [rad]
 
-/// Of the longest side: vertices that differ by less lie on the support together.
+/// Over the length of the way: vertices that differ by less lie on the support together.
 constexpr double kSameHeight = 1e-9;
 
 Vec3 in_space(const Vec2& in_plane, double z) { return {in_plane.x(), in_plane.y(), z}; }

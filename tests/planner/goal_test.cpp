@@ -43,14 +43,20 @@ TEST(Goal, WeighsAngleAgainstDistance) {
   EXPECT_NEAR(goal_excess(goal, {{3e-4, 4e-4, -0.25}, 0.0}), 2e-3, 1e-12);
 }
 
+/// Each coordinate is free with this chance.
+Goal random_goal(Random& random, double free) {
+  Goal goal = goal_at(random.in_box(0.05, 0.05), random.in(-kPi, kPi));
+  if (random.chance(free)) goal.x.reset();
+  if (random.chance(free)) goal.y.reset();
+  if (random.chance(free)) goal.theta.reset();
+  return goal;
+}
+
 TEST(Goal, PlacesMeetTheGoalOnTheObjectNearestFirst) {
   const Model model = prepare(published_tee(3));
   Random random(1);
   for (int i = 0; i < 500; ++i) {
-    Goal goal = goal_at(random.in_box(0.05, 0.05), random.in(-kPi, kPi));
-    if (random.chance(0.3)) goal.x.reset();
-    if (random.chance(0.3)) goal.y.reset();
-    if (random.chance(0.3)) goal.theta.reset();
+    const Goal goal = random_goal(random, 0.3);
     if (!goal.x && !goal.y && !goal.theta) continue;
     const FlatState start{random.in_box(0.05, 0.014), random.in(-5.0, 5.0)};
     const GoalPlaces places = goal_places(model, goal, start);
@@ -79,10 +85,7 @@ TEST(Goal, PlacesThatThePlannerChoosesKeepTheMargin) {
   int chosen = 0;
   int too_near = 0;
   for (int i = 0; i < 500; ++i) {
-    Goal goal = goal_at(random.in_box(0.05, 0.05), random.in(-kPi, kPi));
-    if (random.chance(0.4)) goal.x.reset();
-    if (random.chance(0.4)) goal.y.reset();
-    if (random.chance(0.4)) goal.theta.reset();
+    const Goal goal = random_goal(random, 0.4);
     if (!goal.x && !goal.y && !goal.theta) continue;
     const bool fixed = goal.x && goal.y && goal.theta;
     const FlatState start{random.in_box(0.05, 0.014), random.in(-5.0, 5.0)};

@@ -1,10 +1,7 @@
 #include "planner/point_margin.h"
 
-#include <cstdio>
-
 #include <gtest/gtest.h>
 
-#include "planner/exact_check.h"
 #include "planner/plan_trial.h"
 #include "planner/planner.h"
 #include "problems/random_fixtures.h"
@@ -39,43 +36,6 @@ TEST(PointMargin, PlansWithAMarginSurviveTheBox) {
   }
   EXPECT_GE(draws, 20 * kDraws);
   EXPECT_GE(stuck, 0.995 * draws) << stuck << " of " << draws;
-}
-
-/// Somewhere in the box these objects fall before the first push: no fault of the plan,
-/// which says so, and survives the rest of the box.
-TEST(PointMargin, AStartThatMayFallHasAPlanWithAMargin) {
-  int plans = 0;
-  int draws = 0;
-  int stuck = 0;
-  int fallen = 0;
-  for (std::uint64_t i = 0; i < 200; ++i) {
-    const auto model = points_around_a_box(i);
-    if (!model || model->contacts.empty()) continue;
-    const Vec2 start = finger_in_object(model->scene.start.X_HO);
-    const Margin margin = usual_margin(*model);
-    if (holding_slack(*model, start, model->contacts[0].g_O, margin) > 0.0) continue;
-    PlanOptions options;
-    options.nominal_if_needed = false;
-    const Plan plan = plan_regrasp(*model, options);
-    if (!plan.usable()) continue;
-    ++plans;
-    EXPECT_TRUE(given_may_fall(*model, plan));
-    EXPECT_NE(plan.message.find("hold the object at the start"), std::string::npos)
-        << plan.message;
-    for (std::uint64_t k = 0; k < 60; ++k) {
-      ++draws;
-      stuck += try_plan(*model, plan, usual_box(), random_point(i, k)).sticks ? 1 : 0;
-    }
-    for (std::uint64_t k = 0; k < 32; ++k) {
-      const BoxPoint at = corner(usual_box(), 211 * k);
-      fallen += try_plan(*model, plan, usual_box(), at).falls_at_start() ? 1 : 0;
-    }
-  }
-  EXPECT_GE(plans, 5);
-  EXPECT_GT(fallen, 0);
-  EXPECT_GE(stuck, 0.995 * draws) << stuck << " of " << draws;
-  std::printf("%d plans: %d of %d draws stick; %d corners fall at the start\n", plans,
-              stuck, draws, fallen);
 }
 
 /// Plans that were made without a margin, and the usual one claimed for them.

@@ -7,8 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include "planner/segment.h"
 #include "primitives/uncertainty.h"
+#include "problems/published_regrasps.h"
 #include "problems/random_fixtures.h"
+#include "scene/constants.h"
 #include "tests/planner/walled_scene.h"
 #include "tests/support/no_heap.h"
 #include "tests/support/random.h"
@@ -306,6 +309,35 @@ TEST(Steering, NeedsNoHeap) {
   const long allocations = scope.allocations();
   EXPECT_LE(allocations, 0);
   EXPECT_GT(found, 0);
+}
+
+/// Off its way by what the margin says there, in any direction, the finger axis is on the
+/// object; and what asks for the same all along the way refuses some of these paths.
+TEST(Steering, PathsKeepTheRoomThatTheirDriftNeeds) {
+  const Model model = prepare(published_tee(3));
+  Random random(8);
+  int kept = 0;
+  int longer = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const PathEnd from{random.in_box(0.05, 0.05)};
+    const PathEnd to{random.in_box(0.05, 0.05)};
+    Margin margin = Margin::none();
+    margin.grasp = random.in(0.0, 3e-3);
+    margin.tilt = random.in(0.0, 0.05);
+    const Vec2 d = to.p_OF - from.p_OF;
+    if (!path_on_object(model, from, to, margin)) continue;
+    ++kept;
+    const double most = margin.grasp + margin.tilt * d.norm();
+    longer += distance_to_border(model.pad_face, from.p_OF, to.p_OF) < most;
+    for (int k = 0; k <= 40; ++k) {
+      const double s = k / 40.0;
+      const double off = margin.grasp + margin.tilt * s * d.norm();
+      const Vec2 aside = rotated(random.in(-kPi, kPi), {off * (1.0 - 1e-6), 0.0});
+      EXPECT_TRUE(contains(model.pad_face, from.p_OF + s * d + aside)) << i;
+    }
+  }
+  EXPECT_GT(kept, 500);
+  EXPECT_GT(longer, 20);
 }
 
 }  // namespace

@@ -47,7 +47,6 @@ set(costly_when_sanitized
   Planner.SolvesConstructedCans
   Planner.SolvesConstructedTees
   Planner.WithoutTheHelpOfGravityPushesStickWithoutGravity
-  PointMargin.AStartThatMayFallHasAPlanWithAMargin
   PointMargin.PlansWithAMarginSurviveTheBox
   ProblemList.ProblemsAreSoundAndTheSameEachTime
   Proofs.GoalBesideTheMiddleLineOfACan

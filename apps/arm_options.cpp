@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/option_checks.h"
 #include "apps/table.h"
 
 namespace prehensile::apps {
@@ -61,12 +62,14 @@ void add_arm_options(CLI::App& command, ArmOptions& options) {
   const auto number = [&command](const char* flag, double& value, const char* doc,
                                  double most) {
     command.add_option(flag, value, doc)
-        ->check(CLI::Range(1e-3, most))
+        ->check(in_range(1e-3, most))
         ->capture_default_str();
   };
-  command.add_option("--arm", options.files,
-                     "write the motion of the arm: .csv (all), .tum (tool poses) or "
-                     ".yaml; may be given again");
+  command
+      .add_option("--arm", options.files,
+                  "write the motion of the arm: .csv (all), .tum (tool poses) or "
+                  ".yaml; may be given again")
+      ->check(is_output());
   number("--push-speed-mm-s", options.push_speed_mm, "of the hand during a push", 1e4);
   number("--approach-speed-mm-s", options.approach_speed_mm, "before and after it", 1e4);
   number("--transit-speed-mm-s", options.transit_speed_mm, "between placements", 1e4);
@@ -79,7 +82,7 @@ void add_arm_options(CLI::App& command, ArmOptions& options) {
       .add_option("--clearance-mm", options.clearance_mm,
                   "from a pusher before and after; default 30, or obstacles.approach of "
                   "the scene")
-      ->check(CLI::Range(1e-3, 1e3));
+      ->check(in_range(1e-3, 1e3));
   number("--arm-rate-hz", options.limits.rate, "samples per second", 1e3);
   number("--guard-factor", options.limits.guard_factor,
          "guard force over the greatest force expected", 100.0);

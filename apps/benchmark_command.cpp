@@ -14,6 +14,7 @@
 #include "apps/benchmark_studies.h"
 #include "apps/benchmark_text.h"
 #include "apps/interrupt.h"
+#include "apps/option_checks.h"
 #include "apps/version.h"
 #include "benchmarks/suite/run_suite.h"
 #include "io/plan_file.h"
@@ -101,8 +102,10 @@ int run_all(const Options& options, const suite::SuiteFile& file,
   const std::atomic<bool>& stop = stop_on_signals();
   std::signal(SIGXFSZ, SIG_IGN);  // a full disk is an error to report, not a death
   suite::StudyRunner studies(file, folder_of_programs(), options.suite.quick);
-  suite::ResultsWriter writer(options.output, header_of(options, file, problems),
-                              options.resume);
+  const suite::Results header = header_of(options, file, problems);
+  // What is wrong with it is told before hours of work.
+  if (!options.floor.empty()) parse_floor(options.floor, header);
+  suite::ResultsWriter writer(options.output, header, options.resume);
   SuiteProgressLine line(options.progress_seconds);
   suite::RunOptions run;
   run.jobs = jobs_of(options);
@@ -159,7 +162,8 @@ Command add_benchmark(CLI::App& app) {
   CLI::App& command = *app.add_subcommand(
       "benchmark", "run a suite: planners on problems, and studies, one process each");
   command.add_option("SUITE", options->suite.file, "suite file (YAML)");
-  command.add_option("-o,--output", options->output, "file of results (SQLite)");
+  command.add_option("-o,--output", options->output, "file of results (SQLite)")
+      ->check(is_output());
   command.add_option("--data", options->suite.data,
                      "folder of the files that the suite names; by default its own");
   command.add_flag("--quick", options->suite.quick,
@@ -172,12 +176,13 @@ Command add_benchmark(CLI::App& app) {
   command.add_option("--shard", options->shard,
                      "I/N: every N-th run and study only, from the I-th; merge the files "
                      "later");
-  command.add_option(
+  CLI::Option* const only = command.add_option(
       "--only", options->only,
       "PROBLEM,PLANNER,SEED: one run again, as in wide_square/17,push,1, or "
       "the name of a study; prints its row as JSON");
-  command.add_option("--scene", options->scene,
-                     "with --only: write the scene of the problem");
+  command.add_option("--scene", options->scene, "write the scene of the problem")
+      ->check(is_output())
+      ->needs(only);
   command.add_flag("--list", options->list,
                    "print families, counts and studies, run nothing");
   command.add_option("--fail-below", options->floor,
@@ -186,7 +191,7 @@ Command add_benchmark(CLI::App& app) {
   command
       .add_option("--progress-s", options->progress_seconds,
                   "seconds between lines of progress")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(in_range(0.0, 1e6))
       ->capture_default_str();
   command.add_flag("--json", options->json, "print one JSON object on stdout");
   const Command merge = add_benchmark_merge(command);

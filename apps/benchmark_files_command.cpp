@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/benchmark_commands.h"
+#include "apps/option_checks.h"
 #include "benchmarks/suite/ompl_log.h"
 #include "io/plan_file.h"
 #include "io/scene_file.h"
@@ -47,7 +48,9 @@ Command add_benchmark_merge(CLI::App& benchmark) {
   CLI::App& command = *benchmark.add_subcommand(
       "merge", "one file of results from several of the same suite");
   command.add_option("FILES", options->files, "files of results")->required();
-  command.add_option("-o,--output", options->output, "new file of results")->required();
+  command.add_option("-o,--output", options->output, "new file of results")
+      ->check(is_output())
+      ->required();
   command.footer(
       "Example:\n  prehensile benchmark merge a.sqlite b.sqlite -o all.sqlite");
   return [options] { return merge(*options); };

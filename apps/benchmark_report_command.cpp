@@ -10,6 +10,7 @@
 #include "apps/benchmark_page.h"
 #include "apps/benchmark_studies.h"
 #include "apps/benchmark_text.h"
+#include "apps/option_checks.h"
 #include "io/plan_file.h"
 #include "io/scene_file.h"
 
@@ -119,8 +120,10 @@ Command add_benchmark_report(CLI::App& benchmark) {
   command.add_option("FILES", options->files, "one file of results, or before and after")
       ->required()
       ->expected(1, 2);
-  command.add_option("-o,--output", options->output,
-                     "HTML page to write; tables as CSV go beside it");
+  command
+      .add_option("-o,--output", options->output,
+                  "HTML page to write; tables as CSV go beside it")
+      ->check(is_output());
   command.add_option("--fail-below", options->floor,
                      "exit code 1 if a planner's success over all families is less: "
                      "success=0.99, decided=0.9, push.success=0.99");

@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/benchmark_commands.h"
+#include "apps/option_checks.h"
 #include "benchmarks/suite/run_suite.h"
 #include "benchmarks/suite/slurm.h"
 #include "io/plan_file.h"
@@ -120,7 +121,7 @@ Command add_benchmark_slurm(CLI::App& benchmark) {
   command
       .add_option("--task-s", options->task_seconds,
                   "seconds of work of a task, at least")
-      ->check(CLI::Range(10.0, 1e6))
+      ->check(in_range(10.0, 1e6))
       ->capture_default_str();
   command.add_flag("--submit", options->submit, "submit them with sbatch");
   command.footer(

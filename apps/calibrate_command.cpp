@@ -6,6 +6,7 @@
 
 #include "apps/calibration_report.h"
 #include "apps/commands.h"
+#include "apps/option_checks.h"
 #include "apps/parallel.h"
 #include "io/plan_file.h"
 
@@ -67,8 +68,10 @@ Command add_calibrate(CLI::App& app) {
       .add_option("DATA", options->data,
                   "measured pushes or readings of slip forces (CSV; docs/files.md)")
       ->required();
-  command.add_option("-o,--output", options->output, "write the calibrated scene here");
-  command.add_option("--plot", options->plot, "write a picture (SVG) to this file");
+  command.add_option("-o,--output", options->output, "write the calibrated scene here")
+      ->check(is_output());
+  command.add_option("--plot", options->plot, "write a picture (SVG) to this file")
+      ->check(is_output());
   command
       .add_option("--pressure", options->pressure,
                   "how pressure is described: edge_load, radius (pads larger or smaller "
@@ -78,7 +81,7 @@ Command add_calibrate(CLI::App& app) {
   command.add_flag("--no-registration", options->no_registration,
                    "the places of pushers are exact");
   command.add_option("--level", options->how.level, "of the intervals, two-sided")
-      ->check(CLI::Range(0.5, 0.999))
+      ->check(in_range(0.5, 0.999))
       ->capture_default_str();
   command
       .add_option("--folds", options->how.folds,
@@ -86,6 +89,7 @@ Command add_calibrate(CLI::App& app) {
       ->check(CLI::Range(2, 100))
       ->capture_default_str();
   command.add_option("--seed", options->how.seed, "of the folds and of what is drawn")
+      ->check(is_seed())
       ->capture_default_str();
   command
       .add_option("--samples", options->how.samples,

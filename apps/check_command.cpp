@@ -8,6 +8,7 @@
 #include "apps/commands.h"
 #include "apps/json_number.h"
 #include "apps/mujoco_output.h"
+#include "apps/option_checks.h"
 #include "apps/parallel.h"
 #include "apps/plan_report.h"
 #include "apps/plan_samples.h"
@@ -141,7 +142,9 @@ Command add_check(CLI::App& app) {
                   "also follow the plan in this many members of its uncertainty")
       ->check(CLI::Range(1, 10'000'000));
   add_vary_option(command, options->vary);
-  command.add_option("--seed", options->seed, "of the samples")->capture_default_str();
+  command.add_option("--seed", options->seed, "of the samples")
+      ->check(is_seed())
+      ->capture_default_str();
   command
       .add_option("--jobs", options->jobs,
                   "threads; 0: one per core. The answer is the same for any number")
@@ -150,7 +153,7 @@ Command add_check(CLI::App& app) {
   command
       .add_option("--at-least", options->at_least,
                   "share of success below which the exit code is 1")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(in_range(0.0, 1.0))
       ->needs("--samples");
   command
       .add_option("--success", options->success,

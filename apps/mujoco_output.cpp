@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/json_number.h"
+#include "apps/option_checks.h"
 #include "apps/plan_report.h"
 #include "apps/table.h"
 #include "io/scene_file.h"
@@ -29,8 +30,9 @@ bool agrees(const mjcf::MujocoPush& push) {
 }  // namespace
 
 void add_mjcf_option(CLI::App& command, std::string& file) {
-  command.add_option("--mjcf", file,
-                     "also write scene and pushes for MuJoCo (MJCF, XML)");
+  command
+      .add_option("--mjcf", file, "also write scene and pushes for MuJoCo (MJCF, XML)")
+      ->check(is_output());
 }
 
 std::string mjcf_text(const std::string& file, const Model& model,
@@ -53,7 +55,7 @@ void add_mujoco_options(CLI::App& command, MujocoCheck& options) {
           "--mujoco-speed-mm-s", options.speed_mm_s,
           "of the pad point that rubs most; 0: 2, and 0.2 where the loads of the pads "
           "shift")
-      ->check(CLI::Range(0.0, 100.0))
+      ->check(in_range(0.0, 100.0))
       ->capture_default_str()
       ->needs(wanted);
 }

@@ -6,6 +6,7 @@
 #include "apps/arm_options.h"
 #include "apps/commands.h"
 #include "apps/interrupt.h"
+#include "apps/option_checks.h"
 #include "apps/plan_report.h"
 #include "apps/planner_options.h"
 #include "apps/progress_line.h"
@@ -116,9 +117,11 @@ Command add_plan(CLI::App& app) {
       *app.add_subcommand("plan", "plan a regrasp and write it to a file");
   add_scene_options(command, options->scene);
   command.add_option("-o,--output", options->output, "plan file to write")
+      ->check(is_output())
       ->capture_default_str();
   add_planner_options(command, options->planner);
   command.add_option("--seed", options->plan.seed, "of every random choice")
+      ->check(is_seed())
       ->capture_default_str();
   command
       .add_option("--budget", options->plan.budget,
@@ -129,14 +132,14 @@ Command add_plan(CLI::App& app) {
       .add_option(
           "--time", options->plan.time_limit,
           "time limit in seconds; 0: none. The answer then depends on the machine")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(in_range(0.0, 1e6));
   CLI::Option* const margin =
       command
           .add_option("--margin", options->margin,
                       "factor on the usual margin: frictions of pushers 10 % and fingers "
                       "5 %, grip force 3 %, mass 1 %, torque radius 10 %, centre of mass "
                       "0.7 mm, start in the hand 0.5 mm, pusher 1 mm and 0.5 deg")
-          ->check(CLI::Range(0.0, 5.0))
+          ->check(in_range(0.0, 5.0))
           ->capture_default_str();
   CLI::Option* const nominal = command.add_flag(
       "--nominal", options->nominal, "plan for the values of the scene only: no margin");
@@ -154,7 +157,7 @@ Command add_plan(CLI::App& app) {
   command
       .add_option("--progress-s", options->progress_seconds,
                   "seconds between lines of progress, and before the first")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(in_range(0.0, 1e6))
       ->capture_default_str();
   command.add_flag("--no-polish", options->no_polish,
                    "keep the plan as the search found it");

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/commands.h"
+#include "apps/option_checks.h"
 #include "apps/version.h"
 #include "io/scene_file.h"
 
@@ -83,7 +84,7 @@ int run(int argc, char** argv) {
   const Command report = add_report(app);
   const Command benchmark = add_benchmark(app);
   const Command view = add_view(app);
-  std::vector<std::pair<const CLI::App*, Command>> commands = {
+  std::vector<std::pair<CLI::App*, Command>> commands = {
       {app.get_subcommand("plan"), plan},
       {app.get_subcommand("check"), check},
       {app.get_subcommand("calibrate"), calibrate},
@@ -112,7 +113,9 @@ int run(int argc, char** argv) {
     return app.exit(error) == 0 ? kDone : kBadInput;
   }
   for (const auto& [subcommand, command] : commands) {
-    if (subcommand->parsed()) return command();
+    if (!subcommand->parsed()) continue;
+    check_outputs(*subcommand);
+    return command();
   }
   return kInternalFault;
 }

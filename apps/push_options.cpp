@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/option_checks.h"
 #include "apps/plan_report.h"
 #include "apps/table.h"
 #include "io/scene_file.h"
@@ -32,11 +33,11 @@ void add_push_options(CLI::App& command, PushOptions& options) {
   command
       .add_option("--place-mm", options.place_mm,
                   "of the pusher's centre along the face, from the face's centre")
-      ->check(CLI::Range(-1e4, 1e4));
+      ->check(in_range(-1e4, 1e4));
   command
       .add_option("--direction-deg", options.direction_deg,
                   "of the push, from the face's normal, counter-clockwise")
-      ->check(CLI::Range(-360.0, 360.0));
+      ->check(in_range(-360.0, 360.0));
   command
       .add_option(
           "--at", options.at,
@@ -44,7 +45,7 @@ void add_push_options(CLI::App& command, PushOptions& options) {
           "scene's start")
       ->delimiter(',')
       ->expected(3, 4)
-      ->check(CLI::Range(-1e4, 1e4));
+      ->check(in_range(-1e4, 1e4));
 }
 
 void add_solver_option(CLI::App& command, std::string& solver) {
@@ -100,21 +101,21 @@ void add_path_options(CLI::App& command, PathOptions& options) {
       ->check(CLI::IsMember({"slide", "pivot", "roll", "push"}))
       ->capture_default_str();
   command.add_option("--travel-mm", options.travel_mm, "of the pusher (not for pivot)")
-      ->check(CLI::Range(-1e4, 1e4))
+      ->check(in_range(-1e4, 1e4))
       ->capture_default_str();
   command.add_option("--turn-deg", options.turn_deg, "of the pusher (pivot and push)")
-      ->check(CLI::Range(-3600.0, 3600.0))
+      ->check(in_range(-3600.0, 3600.0))
       ->capture_default_str();
   command
       .add_option("--bend-deg", options.bend_deg,
                   "by which the direction turns along the push (push only); the negative "
                   "of --turn-deg: a screw")
-      ->check(CLI::Range(-3600.0, 3600.0))
+      ->check(in_range(-3600.0, 3600.0))
       ->capture_default_str();
   command
       .add_option("--tolerance-um", options.tolerance_um,
                   "accepted error of the end pose")
-      ->check(CLI::Range(1e-6, 1e3))
+      ->check(in_range(1e-6, 1e3))
       ->capture_default_str();
   command.add_option("--points", options.points, "contact points per pad")
       ->check(CLI::IsMember({1, 4, 8, 16, 32, 64}))

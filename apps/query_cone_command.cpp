@@ -9,6 +9,7 @@
 
 #include "apps/commands.h"
 #include "apps/cone_report.h"
+#include "apps/option_checks.h"
 #include "apps/plan_report.h"
 #include "apps/push_options.h"
 #include "apps/table.h"
@@ -148,6 +149,7 @@ Command add_query_cone(CLI::App& query) {
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
   command.add_option("--seed", options->seed, "of the drawn points")
+      ->check(is_seed())
       ->capture_default_str();
   command
       .add_option("--check", options->check,
@@ -163,8 +165,10 @@ Command add_query_cone(CLI::App& query) {
   command.add_option("--points", options->points, "contact points per pad")
       ->check(CLI::IsMember({1, 4, 8, 16, 32, 64}))
       ->capture_default_str();
-  command.add_option("--csv", options->csv, "write the edges to this file");
-  command.add_option("--plot", options->plot, "write a picture (SVG) to this file");
+  command.add_option("--csv", options->csv, "write the edges to this file")
+      ->check(is_output());
+  command.add_option("--plot", options->plot, "write a picture (SVG) to this file")
+      ->check(is_output());
   command.footer(
       "Example:\n  prehensile query cone problems/paper/slide.yaml --pusher edge --vary "
       "friction=0.2,place_mm=1");

@@ -8,6 +8,7 @@
 
 #include "apps/commands.h"
 #include "apps/contact_report.h"
+#include "apps/option_checks.h"
 #include "apps/parallel.h"
 #include "apps/plan_report.h"
 #include "apps/push_options.h"
@@ -203,20 +204,23 @@ Command add_query_contact(CLI::App& query) {
       .add_option("--lines-mm", options->lines_mm,
                   "lengths of the line pushers that are compared")
       ->delimiter(',')
-      ->check(CLI::Range(1e-2, 1e4))
+      ->check(in_range(1e-2, 1e4))
       ->capture_default_str();
   command.add_option("--samples", options->samples, "pushes drawn for each contact")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   command.add_option("--seed", options->seed, "of the drawn pushes")
+      ->check(is_seed())
       ->capture_default_str();
   command.add_option("--jobs", options->jobs, "threads; default: one per core")
       ->check(CLI::Range(0, 1024));
   command.add_option("--level", options->level, "of the half widths")
-      ->check(CLI::Range(0.01, 0.999))
+      ->check(in_range(0.01, 0.999))
       ->capture_default_str();
-  command.add_option("--csv", options->csv, "write the comparison to this file");
-  command.add_option("--plot", options->plot, "write a picture (SVG) to this file");
+  command.add_option("--csv", options->csv, "write the comparison to this file")
+      ->check(is_output());
+  command.add_option("--plot", options->plot, "write a picture (SVG) to this file")
+      ->check(is_output());
   command.footer(
       "Example:\n  prehensile query contact problems/paper/slide.yaml --travel-mm 20");
   return [options] { return run(*options); };

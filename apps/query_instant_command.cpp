@@ -8,6 +8,7 @@
 
 #include "apps/commands.h"
 #include "apps/instant_report.h"
+#include "apps/option_checks.h"
 #include "apps/plan_report.h"
 #include "apps/push_options.h"
 #include "apps/solver_comparison.h"
@@ -307,16 +308,16 @@ Command add_query_instant(CLI::App& query) {
   add_push_options(command, options->push);
   command
       .add_option("--speed-mm-s", options->speed_mm_s, "of the pusher at the finger axis")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(in_range(0.0, 1e6))
       ->capture_default_str();
   command
       .add_option("--turn-deg-s", options->turn_deg_s,
                   "of the pusher about the finger axis")
-      ->check(CLI::Range(-1e6, 1e6));
+      ->check(in_range(-1e6, 1e6));
   command
       .add_option("--acceleration", options->acceleration,
                   "[m/s^2] of the pusher from rest, instead of the quasi-static limit")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(in_range(0.0, 1e6));
   add_solver_option(command, options->solver);
   command
       .add_option("--generators", options->generators,
@@ -330,17 +331,17 @@ Command add_query_instant(CLI::App& query) {
       .add_option("--height-mm", options->height_mm,
                   "of the pusher along the closing direction, from the mid-plane of the "
                   "object; default: as in the scene")
-      ->check(CLI::Range(-1e4, 1e4));
+      ->check(in_range(-1e4, 1e4));
   command
       .add_option("--rise-mm-s", options->rise_mm_s,
                   "of the pusher along the closing direction")
-      ->check(CLI::Range(-1e6, 1e6));
+      ->check(in_range(-1e6, 1e6));
   command
       .add_option("--tilt-deg-s", options->tilt_deg_s,
                   "of the pusher about x,y of the hand, through the finger axis")
       ->delimiter(',')
       ->expected(2)
-      ->check(CLI::Range(-1e6, 1e6));
+      ->check(in_range(-1e6, 1e6));
   command.add_flag("--probe", options->probe, "look for a second motion");
   command.add_flag("--rigid-limit", options->rigid_limit,
                    "pads as stiff as the spatial solver can resolve");

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/commands.h"
+#include "apps/option_checks.h"
 #include "apps/place_report.h"
 #include "apps/plan_report.h"
 #include "apps/push_options.h"
@@ -132,7 +133,7 @@ Command add_query_place(CLI::App& query) {
     command.add_option(name, values, what)
         ->delimiter(',')
         ->expected(3)
-        ->check(CLI::Range(-1e6, 1e6));
+        ->check(in_range(-1e6, 1e6));
   };
   three("--twist", options->twist,
         "wanted twist of the object in the hand, about the finger axis: "
@@ -147,7 +148,7 @@ Command add_query_place(CLI::App& query) {
                   "[N] low,high: grip forces to choose from; default: that of the scene")
       ->delimiter(',')
       ->expected(2)
-      ->check(CLI::Range(1e-9, 1e6));
+      ->check(in_range(1e-9, 1e6));
   command.add_flag("--least-force", options->least_force,
                    "least push force that keeps the margin, instead of most margin");
   command
@@ -155,13 +156,15 @@ Command add_query_place(CLI::App& query) {
           "--margin", options->margin,
           "factor on the box of uncertainty: 10 % of frictions, forces and torque "
           "radius, 1 mm of place and centre of mass")
-      ->check(CLI::Range(0.0, 5.0))
+      ->check(in_range(0.0, 5.0))
       ->capture_default_str();
   command.add_option("--points", options->points, "contact points per pad")
       ->check(CLI::IsMember({1, 4, 8, 16, 32, 64}))
       ->capture_default_str();
-  command.add_option("--csv", options->csv, "write margins against place to this file");
-  command.add_option("--plot", options->plot, "write a picture (SVG) to this file");
+  command.add_option("--csv", options->csv, "write margins against place to this file")
+      ->check(is_output());
+  command.add_option("--plot", options->plot, "write a picture (SVG) to this file")
+      ->check(is_output());
   command.footer(
       "Example:\n  prehensile query place problems/paper/slide.yaml --to 10,0,0\n"
       "  prehensile query place problems/paper/pivot.yaml --twist 0,0,30 --grip-force "

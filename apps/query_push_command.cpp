@@ -10,6 +10,7 @@
 #include "apps/grip_report.h"
 #include "apps/json_number.h"
 #include "apps/mujoco_output.h"
+#include "apps/option_checks.h"
 #include "apps/plan_report.h"
 #include "apps/push_options.h"
 #include "apps/table.h"
@@ -200,7 +201,7 @@ Command add_query_push(CLI::App& query) {
   command
       .add_option("--grip-tolerance-mm", options->grip_tolerance_mm,
                   "how far from there it may end (--grip-range)")
-      ->check(CLI::Range(1e-6, 1e3))
+      ->check(in_range(1e-6, 1e3))
       ->capture_default_str();
   command
       .add_option("--grip-places", options->grip_places,

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/commands.h"
+#include "apps/option_checks.h"
 #include "apps/parallel.h"
 #include "apps/plan_report.h"
 #include "apps/push_options.h"
@@ -157,25 +158,28 @@ Command add_query_spread(CLI::App& query) {
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   command.add_option("--seed", options->seed, "of the drawn pushes")
+      ->check(is_seed())
       ->capture_default_str();
   command.add_option("--jobs", options->jobs, "threads; default: one per core")
       ->check(CLI::Range(0, 1024));
   command.add_option("--level", options->level, "of the intervals, two-sided")
-      ->check(CLI::Range(0.01, 0.999))
+      ->check(in_range(0.01, 0.999))
       ->capture_default_str();
   command
       .add_option("--floor-percent", options->floor_percent,
                   "of the motion: friction that differs from spot to spot")
-      ->check(CLI::Range(0.0, 100.0))
+      ->check(in_range(0.0, 100.0))
       ->capture_default_str();
   command
       .add_option("--factors", options->factors,
                   "on the interval: normal, tangential, angle; default: measured ones "
                   "for the levels 0.5 and 0.9")
       ->delimiter(',')
-      ->check(CLI::Range(0.0, 1e3));
-  command.add_option("--csv", options->csv, "write every push to this file");
-  command.add_option("--plot", options->plot, "write a picture (SVG) to this file");
+      ->check(in_range(0.0, 1e3));
+  command.add_option("--csv", options->csv, "write every push to this file")
+      ->check(is_output());
+  command.add_option("--plot", options->plot, "write a picture (SVG) to this file")
+      ->check(is_output());
   command.footer(
       "Example:\n  prehensile query spread problems/paper/slide.yaml --travel-mm 20 "
       "--samples 1000");

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/commands.h"
+#include "apps/option_checks.h"
 #include "apps/parallel.h"
 #include "apps/sweep_report.h"
 #include "apps/table.h"
@@ -100,25 +101,27 @@ Command add_query_sweep(CLI::App& query) {
   command
       .add_option("--speed-mm-s", question.speed_mm_s,
                   "of the pusher (instant) or support (roll)")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(in_range(0.0, 1e6))
       ->capture_default_str();
   command
       .add_option("--turn-deg-s", question.turn_deg_s,
                   "of the pusher about the finger axis (instant)")
-      ->check(CLI::Range(-1e6, 1e6));
+      ->check(in_range(-1e6, 1e6));
   command
       .add_option("--height-mm", question.height_mm,
                   "of the pusher off the mid-plane (instant); default: as in the scene")
-      ->check(CLI::Range(-1e4, 1e4));
+      ->check(in_range(-1e4, 1e4));
   command
       .add_option("--rise-mm-s", question.rise_mm_s,
                   "of the pusher along the closing direction (instant)")
-      ->check(CLI::Range(-1e6, 1e6));
+      ->check(in_range(-1e6, 1e6));
   add_solver_option(command, question.solver);
   command.add_option("--jobs", options->jobs, "threads; default: one per core")
       ->check(CLI::Range(0, 1024));
-  command.add_option("--csv", options->csv, "write the rows to this file");
-  command.add_option("--plot", options->plot, "write a picture (SVG) to this file");
+  command.add_option("--csv", options->csv, "write the rows to this file")
+      ->check(is_output());
+  command.add_option("--plot", options->plot, "write a picture (SVG) to this file")
+      ->check(is_output());
   command.footer(
       "Example:\n  prehensile query sweep problems/paper/slide.yaml --over "
       "gripper.grip_force=2:40:20 --plot force.svg");

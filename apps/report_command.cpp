@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/commands.h"
+#include "apps/option_checks.h"
 #include "apps/paper_report.h"
 #include "apps/paper_scenes.h"
 #include "apps/table.h"
@@ -78,7 +79,9 @@ Command add_report(CLI::App& app) {
   auto file = std::make_shared<std::string>();
   CLI::App& command = *app.add_subcommand(
       "report", "the paper's figures and statements, recomputed, as one HTML page");
-  command.add_option("-o,--output", *file, "HTML file to write")->required();
+  command.add_option("-o,--output", *file, "HTML file to write")
+      ->check(is_output())
+      ->required();
   command.footer("Example:\n  prehensile report -o report.html");
   return [file] {
     const std::string page = paper_report();

@@ -9,6 +9,7 @@
 
 #include "apps/commands.h"
 #include "apps/mujoco_output.h"
+#include "apps/option_checks.h"
 #include "apps/parallel.h"
 #include "apps/plan_samples.h"
 #include "apps/uncertainty_options.h"
@@ -170,20 +171,30 @@ Command add_view(CLI::App& app) {
       "of a plan whose object is a mesh: its scene file, for the triangles");
   command.add_flag("--json", options->json,
                    "print one JSON object on stdout, nothing else");
-  command.add_option("-o,--output", options->out.page,
-                     "page to write (HTML); view.html if nothing else is asked for");
-  command.add_option("--frames", options->out.frames,
-                     "also, or only: one picture per push of the first plan (SVG)");
-  command.add_option("--glb", options->out.glb,
-                     "also, or only: the first plan as an animation (GLB)");
-  command.add_option("--mjcf", options->out.mjcf,
-                     "also, or only: scene and first plan for MuJoCo (MJCF, XML)");
+  command
+      .add_option("-o,--output", options->out.page,
+                  "page to write (HTML); view.html if nothing else is asked for")
+      ->check(is_output());
+  command
+      .add_option("--frames", options->out.frames,
+                  "also, or only: one picture per push of the first plan (SVG)")
+      ->check(is_output());
+  command
+      .add_option("--glb", options->out.glb,
+                  "also, or only: the first plan as an animation (GLB)")
+      ->check(is_output());
+  command
+      .add_option("--mjcf", options->out.mjcf,
+                  "also, or only: scene and first plan for MuJoCo (MJCF, XML)")
+      ->check(is_output());
   command
       .add_option("--samples", options->samples,
                   "show where so many members of the uncertainty end")
       ->check(CLI::Range(1, 10'000));
   add_vary_option(command, options->vary);
-  command.add_option("--seed", options->seed, "of the samples")->capture_default_str();
+  command.add_option("--seed", options->seed, "of the samples")
+      ->check(is_seed())
+      ->capture_default_str();
   command.add_option("--jobs", options->jobs, "threads for the samples; 0: one per core")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();

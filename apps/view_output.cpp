@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/mujoco_output.h"
+#include "apps/option_checks.h"
 #include "io/plan_file.h"
 #include "viewer/animation_glb.h"
 #include "viewer/film_json.h"
@@ -34,7 +35,8 @@ void write_exports(const ViewFiles& files, const Shown& one) {
 }  // namespace
 
 void add_view_option(CLI::App& command, std::string& file) {
-  command.add_option("--view", file, "also write a page to look at (HTML)");
+  command.add_option("--view", file, "also write a page to look at (HTML)")
+      ->check(is_output());
 }
 
 void check_view_option(const std::string&) {}

@@ -54,6 +54,21 @@ std::string read_at_most(const Descriptor& in, const fs::path& file, std::size_t
   return text;
 }
 
+/// The file that a name stands for: a link is followed, so that the file it names is
+/// replaced and not the link; and only a file may be replaced, because renaming over a
+/// device would destroy it.
+fs::path target_of(const fs::path& file) {
+  std::error_code ignored;
+  fs::path target =
+      fs::is_symlink(file, ignored) ? fs::weakly_canonical(file, ignored) : file;
+  struct stat status {};
+  if (::stat(target.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
+    refuse(file, std::string(kind_of(status.st_mode)) +
+                     ": expected a new file or one to replace");
+  }
+  return target;
+}
+
 bool write_all(int number, const std::string& text) {
   std::size_t done = 0;
   while (done < text.size()) {
@@ -93,17 +108,21 @@ std::string internal::read_text(const fs::path& file, std::size_t limit) {
   return text;
 }
 
-void write_atomically(const fs::path& file, const std::string& text) {
-  // A link is followed, so that the file it names is replaced and not the link;
-  // and only a file may be replaced: renaming over a device would destroy it.
-  std::error_code ignored;
-  const fs::path target =
-      fs::is_symlink(file, ignored) ? fs::weakly_canonical(file, ignored) : file;
+void check_writable(const fs::path& file) {
+  const fs::path folder = target_of(file).parent_path();
+  const std::string name = folder.empty() ? "." : folder.string();
   struct stat status {};
-  if (::stat(target.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
-    refuse(file, std::string(kind_of(status.st_mode)) +
-                     ": expected a new file or one to replace");
+  if (::stat(name.c_str(), &status) != 0 || ::access(name.c_str(), W_OK | X_OK) != 0) {
+    refuse(file, "cannot be written: " + name + ": " + reason());
   }
+  if (!S_ISDIR(status.st_mode)) {
+    refuse(file, "cannot be written: " + name + ": " + kind_of(status.st_mode) +
+                     ": expected a directory");
+  }
+}
+
+void write_atomically(const fs::path& file, const std::string& text) {
+  const fs::path target = target_of(file);
   std::string temporary = target.string() + ".XXXXXX";
   const Descriptor out(::mkstemp(temporary.data()));
   if (out.number() < 0) refuse(file, "cannot be written: " + reason());

@@ -3,6 +3,7 @@
 #include <ctime>
 #include <type_traits>
 
+#include "benchmarks/suite/suite_file.h"
 #include "io/scene_file.h"
 
 namespace prehensile::suite {
@@ -157,6 +158,11 @@ Results read_header(Database& database, const std::filesystem::path& file) {
   while (experiments.step()) {
     header.families.push_back(
         {experiments.text(0), static_cast<int>(experiments.integer(1))});
+    // Files are named after them.
+    if (const std::string& name = header.families.back().name; !is_word(name)) {
+      throw BadInput(file.string() + ": experiments: name: \"" + name +
+                     "\": expected one word of letters, digits, _ - and .");
+    }
     header.cpu_limit = experiments.real(2);
     header.memory_limit_MB = experiments.real(3);
   }

@@ -249,10 +249,15 @@ TEST_F(BenchmarkCommand, BadInputIsRefused) {
   refused("", "expected a suite file");
   refused(at("suite.yaml"), "-o: missing");
   refused(at("absent.yaml") + " -o " + at("a"), "cannot be opened");
-  refused(at("suite.yaml") + " -o " + at("no/folder/a"), "cannot be opened");
-  refused(at("suite.yaml") + " -o " + at("suite.yaml"), "exists");
-  refused(at("suite.yaml") + " -o " + at("suite.yaml") + " --resume",
+  refused(at("suite.yaml") + " -o " + at("no/folder/a"), "cannot be written");
+  refused(at("suite.yaml") + " -o " + at("suite.yaml"), "SUITE does not name");
+  write_text(at("other"), "mine");
+  refused(at("suite.yaml") + " -o " + at("other"), "exists");
+  refused(at("suite.yaml") + " -o " + at("other") + " --resume",
           "expected a file of results");
+  EXPECT_EQ(read_text(at("other")), "mine");
+  refused(at("suite.yaml") + " -o " + at("a") + " --fail-below x", "--fail-below");
+  EXPECT_FALSE(std::filesystem::exists(at("a")));
   refused(at("suite.yaml") + " -o " + at("a") + " --shard 3/2", "1 <= I <= N");
   refused("report " + at("suite.yaml"), "file of results");
   refused("merge " + at("suite.yaml") + " -o " + at("m"), "file of results");

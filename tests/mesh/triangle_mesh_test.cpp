@@ -1,5 +1,6 @@
 #include "mesh/triangle_mesh.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -102,6 +103,25 @@ TEST(TriangleMesh, RefusalsSayWhy) {
   std::string cut = to_binary_stl({box});
   cut.resize(cut.size() - 7);
   EXPECT_NE(refusal(cut, "a.stl"), "accepted");
+}
+
+/// The import library makes another body of numbers that it cannot read.
+TEST(TriangleMesh, NumbersAreReadAsWrittenOrRefusedWithTheirLine) {
+  const std::string box = to_obj({extruded(kSquare, 0.0, 3.0)});
+  for (const char* bad :
+       {"v 0 0", "v 0.0.5 0 0", "v 0.05- 0 0", "v 0-1 0 0", "v 1e400 0 0", "v 0 0 0 0 0",
+        "v 100000000000000000000 0 0", "f 1 2 3x", "f 1 2 3/4/5/6", "f 1/x 2 3"}) {
+    const std::string why = refusal(box + bad + "\n", "a.obj");
+    const auto lines = std::ranges::count(box, '\n') + 1;
+    EXPECT_EQ(why.find("a.obj:" + std::to_string(lines) + ": " + bad), 0u) << why;
+  }
+  const std::string same = refusal("v\t0 0 0\n" + box, "a.obj");
+  EXPECT_EQ(same, "accepted");
+  std::string long_face = "f";
+  for (int i = 0; i < 5000; ++i) long_face += " 1";
+  EXPECT_NE(refusal(box + long_face, "a.obj").find("corners"), std::string::npos);
+  EXPECT_NE(refusal("solid x\nvertex 1 2 3 4 5\n", "a.stl").find("a.stl:2: "),
+            std::string::npos);
 }
 
 /// What a file names besides its faces is not opened.

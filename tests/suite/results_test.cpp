@@ -139,6 +139,22 @@ TEST(Results, OtherFilesAreRefused) {
             std::string::npos);
 }
 
+/// Logs and pages are named after families.
+TEST(Results, NamesThatLeadElsewhereAreRefused) {
+  const Folder folder;
+  const Bench bench(small_suite());
+  { ResultsWriter(folder / "a", bench.header(), false); }
+  ASSERT_EQ(message_of([&] { read_results(folder / "a"); }), "");
+  sqlite3* handle = nullptr;
+  ASSERT_EQ(sqlite3_open((folder / "a").c_str(), &handle), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(handle, "UPDATE experiments SET name = '../mine'", nullptr,
+                         nullptr, nullptr),
+            SQLITE_OK);
+  sqlite3_close(handle);
+  EXPECT_NE(message_of([&] { read_results(folder / "a"); }).find("../mine"),
+            std::string::npos);
+}
+
 TEST(Results, MergeKeepsRowsOnceAndRefusesDisagreement) {
   const Folder folder;
   const Bench bench(small_suite());

@@ -21,8 +21,9 @@
 
 namespace prehensile {
 
-/// A pusher flush with a face of the object: the pair that a push names. In O. While it
-/// touches, the object's attitude in W is fixed, and with it gravity in O.
+/// A pusher flush with a face of the object: the pair that a push names. In O. While a
+/// line touches, the object's attitude in W is fixed, and with it gravity in O; about a
+/// point the object turns, and gravity in O with it.
 struct PushContact {
   int pusher = 0;  ///< index in Scene::pushers
   int face = 0;    ///< index in Model::faces
@@ -38,7 +39,7 @@ struct PushContact {
   /// strong the object moves as under 1/k of its weight, and all forces are k times as
   /// great.
   double grip_share = 1.0;
-  /// [m/s^2] gravity in O during contact, over grip_share.
+  /// [m/s^2] gravity in O while flush, over grip_share.
   Vec2 g_O = Vec2::Zero();
   double theta_WO = 0.0;  ///< [rad] attitude of the object in W during contact
 

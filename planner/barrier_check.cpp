@@ -206,7 +206,9 @@ class BorderLaw {
     return all;
   }
 
+  /// About a point the object may have turned to another attitude, in which it is held.
   bool falls(const PushContact& contact, const Piece& piece) const {
+    if (contact.is_point) return false;
     if (!clips_) return falls_all_along(model_, contact, piece);
     return falls(ClippedLaw(model_, {piece.a, piece.b}, piece.out), contact, piece);
   }

@@ -148,12 +148,19 @@ int points_along(const Move& move) {
 double held_slack(const SearchModel& search, int contact, const Stop& stop) noexcept {
   if (can_roll(search.model->scene.object)) return 1.0;
   const Vec2& g_O = search.model->contacts[search.contacts[contact].contact].g_O;
-  const Margin& margin = stop.given ? Margin::none() : search.margin;
+  const Margin margin = stop.given ? Margin::none() : search.margin_from(stop.p_OF);
   return holding_slack(*search.model, stop.p_OF, g_O, margin);
 }
 
 bool is_held(const SearchModel& search, int contact, const Stop& stop) noexcept {
-  return held_slack(search, contact, stop) > 0.0;
+  if (!(held_slack(search, contact, stop) > 0.0)) return false;
+  if (stop.given || !search.exact_everywhere) return true;
+  // What a disc holds is a little less than the ellipsoid, and the same at every angle.
+  const Model& model = *search.model;
+  const Vec2& g_O = model.contacts[search.contacts[contact].contact].g_O;
+  Work aside;
+  return pads_hold_gravity(model, pose_from_finger(stop.p_OF, 0.0), g_O,
+                           search.margin_from(stop.p_OF), aside);
 }
 
 bool make_leg(const Steering& steering, int contact, const Stop& from, const Stop& to,

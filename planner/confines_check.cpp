@@ -30,12 +30,14 @@ bool is_beyond(const Vec2& p, const std::optional<Vec2>& low,
          (high && !(p.array() <= high->array() + kLimitTolerance).all());
 }
 
-/// The angle from the lower limit up, by less than a turn.
-bool is_beyond_angles(double angle, double low, double high) {
+/// Whether a hand that turns from one angle to another leaves its limits, or a whole turn
+/// of them, on the way.
+bool turns_beyond(double from, double to, double low, double high) {
   const double turn = 2.0 * std::numbers::pi;
-  double above = std::fmod(angle - low, turn);
-  if (above < 0.0) above += turn;
-  return above > high - low + kLimitTolerance && above < turn - kLimitTolerance;
+  if (high - low + kLimitTolerance >= turn) return false;
+  const auto [least, greatest] = std::minmax(from, to);
+  const double turns = turn * std::floor((least - low + kLimitTolerance) / turn);
+  return greatest > high + turns + kLimitTolerance;
 }
 
 std::string grasp_fault(const GraspLimits& limits, const PlanarPose& X_HO) {
@@ -56,10 +58,6 @@ std::string hand_fault(const GraspLimits& limits, const PlanarPose& X_WH,
   }
   if (is_beyond(p + away, limits.hand_low, limits.hand_high)) {
     return "the hand leaves its limits before or after";
-  }
-  if (limits.hand_angle_low &&
-      is_beyond_angles(X_WH.theta, *limits.hand_angle_low, *limits.hand_angle_high)) {
-    return "the hand turns beyond its limits";
   }
   return {};
 }
@@ -96,11 +94,18 @@ std::string limits_fault(const Model& model, const PlannedPush& planned) {
   const PlanarPose X_WO = object_in_world(model, planned);
   const double approach = model.scene.obstacles.value_or(Obstacles{}).approach;
   const Vec2 away = approach * rotated(X_WO.theta, contact.n);
+  const auto hand_at = [&](double s) {
+    return compose(X_WO, inverse(pose_at(planned, s)));
+  };
+  if (limits.hand_angle_low &&
+      turns_beyond(hand_at(0.0).theta, hand_at(1.0).theta, *limits.hand_angle_low,
+                   *limits.hand_angle_high)) {
+    return "the hand turns beyond its limits";
+  }
   for (int i = 0; i < kSamples; ++i) {
     const double s = static_cast<double>(i) / (kSamples - 1);
-    const PlanarPose X_HO = pose_at(planned, s);
-    std::string fault = grasp_fault(limits, X_HO);
-    if (fault.empty()) fault = hand_fault(limits, compose(X_WO, inverse(X_HO)), away);
+    std::string fault = grasp_fault(limits, pose_at(planned, s));
+    if (fault.empty()) fault = hand_fault(limits, hand_at(s), away);
     if (!fault.empty()) return fault;
   }
   return grasp_fault(limits, planned.end.X_HO);
@@ -275,14 +280,7 @@ bool hand_stays_within(const GraspLimits& limits, const HandPose& from,
   if (!limits.hand_angle_low) return true;
   const double low = *limits.hand_angle_low;
   const double high = *limits.hand_angle_high;
-  const double whole = 2.0 * std::numbers::pi;
-  if (high - low >= whole - kLimitTolerance) return true;
-  if (is_beyond_angles(from.X_WH.theta, low, high)) return false;
-  double above = std::fmod(from.X_WH.theta - low, whole);
-  if (above < 0.0) above += whole;
-  if (above > high - low + kLimitTolerance) above -= whole;
-  const double end = above + to.X_WH.theta - from.X_WH.theta;
-  return end >= -kLimitTolerance && end <= high - low + kLimitTolerance;
+  return !turns_beyond(from.X_WH.theta, to.X_WH.theta, low, high);
 }
 
 bool transit_is_clear(const Model& model, const HeldObject& held, const HandPose& from,

@@ -151,6 +151,14 @@ double grip_force_on_way(const Model& model, const std::vector<PlannedPush>& pus
   return grip_between(model, before, push_at(pushes, push));
 }
 
+double greatest_grip_share(const Model& model) {
+  double greatest = 1.0;
+  for (const PushContact& contact : model.contacts) {
+    greatest = std::max(greatest, contact.grip_share);
+  }
+  return greatest;
+}
+
 int grip_changes_on_way(const Model& model, const Push* before, const Push* after) {
   constexpr double kSame = 1e-9;
   const double way = grip_between(model, before, after);

@@ -50,6 +50,9 @@ double friction_work(const Model& model, const PlannedPush& push) noexcept;
 double grip_force_on_way(const Model& model, const std::vector<PlannedPush>& pushes,
                          std::size_t push);
 
+/// The greatest of these, over the scene's grip force: at least 1.
+double greatest_grip_share(const Model& model);
+
 /// Changes of the grip force on the way between two pushes, either of which may be
 /// missing, and at its ends.
 int grip_changes_on_way(const Model& model, const Push* before, const Push* after);

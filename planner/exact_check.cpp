@@ -7,8 +7,10 @@
 
 #include "planner/confines_check.h"
 #include "planner/goal.h"
+#include "planner/holding_check.h"
 #include "planner/meet_end.h"
-#include "planner/point_margin.h"
+#include "planner/member_margin.h"
+#include "planner/planner.h"
 #include "planner/ring_pads.h"
 #include "planner/roll_step.h"
 #include "planner/space_margin.h"
@@ -68,10 +70,11 @@ double slack_at(const Model& model, const PushContact& contact, double place,
       .slack;
 }
 
-/// What round pads, spread over all angles, leave at an instant of a push by a point: a
-/// disc pulls nowhere aside as the points that stand for it do. With gravity as while the
-/// face lies flush, so that the laws of barrier.h and turn_proof.h hold for the push.
-double slack_of_disc(const Model& model, const PushContact& contact, const Instant& at) {
+/// What the pads leave at an instant of a push by a point with gravity as while the face
+/// lies flush, wherever on it the point may be, so that the laws of bounds.h, barrier.h
+/// and turn_proof.h hold for the push. Round ones are spread over all angles: a disc
+/// pulls nowhere aside as the points that stand for it do.
+double slack_by_laws(const Model& model, const PushContact& contact, const Instant& at) {
   constexpr double kInstant = 1e-9;  // share of the motion
   const Vec2 p_OF = finger_in_object(at.X_HO);
   if (has_ring_pads(model)) {
@@ -79,9 +82,13 @@ double slack_of_disc(const Model& model, const PushContact& contact, const Insta
     const Vec2 e = v > 0.0 ? Vec2(at.velocity / v) : contact.n;
     return ring_slack(model, contact, p_OF, e, kInstant * v, kInstant * at.omega);
   }
-  return has_clipped_discs(model)
-             ? spread_slack(model, contact, p_OF, at.velocity, at.omega)
-             : std::numeric_limits<double>::infinity();
+  if (has_clipped_discs(model)) {
+    return spread_slack(model, contact, p_OF, at.velocity, at.omega);
+  }
+  PushContact anywhere = contact;
+  anywhere.is_point = false;
+  anywhere.half_length = std::numeric_limits<double>::infinity();
+  return slack_at(model, anywhere, 0.0, at, Margin::none());
 }
 
 /// The object turns about a point as the pads let it: looked at along the way that it
@@ -112,7 +119,7 @@ double slack_by_point(const Model& model, const Grasp& start, const LinearPush& 
     at.velocity = rotated(-at.X_HO.theta, instant.V_HO.head<2>());
     at.omega = instant.V_HO[2];
     slack = std::min({slack, slack_at(model, here, push.place, at, margin),
-                      slack_of_disc(model, contact, at)});
+                      slack_by_laws(model, contact, at)});
   }
   return slack;
 }
@@ -193,28 +200,20 @@ bool stays_on_object(const Model& model, const Plan& plan, std::string* why) {
   return true;
 }
 
-bool given_may_fall(const Model& model, const Plan& plan) {
-  if (plan.pushes.empty() || plan.margin.is_none() || can_roll(model.scene.object)) {
-    return false;
-  }
-  const auto is_held = [&](const PlannedPush& push, const Grasp& grasp) {
-    const auto contact = static_cast<std::size_t>(contact_of(push.push));
-    const Vec2& g_O = model.contacts[contact].g_O;
-    return holding_slack(model, finger_in_object(grasp.X_HO), g_O, plan.margin) > 0.0;
-  };
-  return !is_held(plan.pushes.front(), plan.start) ||
-         !is_held(plan.pushes.back(), plan.pushes.back().end);
-}
-
 namespace {
+
+/// As a replay looks at a plan.
+TransitionOptions at_half_step(TransitionOptions options) {
+  options.max_step *= 0.5;
+  return options;
+}
 
 /// A push looked at twice as closely, as a replay does, from where the one before so
 /// ended: a second motion may be possible at a few places only, and of pushes by points
 /// what an end misses may grow in the next.
 std::string fault_at_half_step(const Model& model, const PlannedPush& push,
                                const TransitionOptions& options, Grasp& at, Plan& plan) {
-  TransitionOptions half = options;
-  half.max_step = 0.5 * options.max_step;
+  const TransitionOptions half = at_half_step(options);
   const Transition done = apply(model, at, push.push, half);
   plan.instants += done.instants;
   at = done.end;
@@ -245,7 +244,12 @@ bool check_exactly(const Model& model, const TransitionOptions& options, Plan& p
     return false;
   }
   std::string fault = confinement_fault(model, plan.pushes);
-  if (fault.empty()) fault = point_margin_fault(model, plan, options);
+  if (fault.empty()) fault = start_holding_fault(model, plan);
+  if (fault.empty()) fault = margin_holding_fault(model, plan);
+  if (fault.empty()) fault = member_margin_fault(model, plan, at_half_step(options));
+  if (fault.empty() && model.scene.goal && !reaches(*model.scene.goal, at)) {
+    fault = "the object ends beside the goal at half the step";
+  }
   if (!fault.empty()) {
     if (why) *why = fault;
     return false;

@@ -1,7 +1,7 @@
 /// The exact check of a plan found by a search: every push is done by the transition
 /// function with the real pads, in space where it needs that, and sticks over the margin
 /// box at points along it. In space members of the box do the push as well
-/// (space_margin.h), and where points push, the whole plan (point_margin.h).
+/// (space_margin.h), and where points push, the whole plan (member_margin.h).
 #pragma once
 
 #include <string>
@@ -25,11 +25,6 @@ double push_slack(const Model& model, const Grasp& start, const Push& push,
 /// far as its start and its goal allow; also says which push does not.
 bool stays_on_object(const Model& model, const Plan& plan, std::string* why);
 
-/// Whether somewhere within the margin the fingers alone do not hold the object where the
-/// plan begins or ends: no plan can make more of a start and a goal that are given. By
-/// the ellipsoid; not of cans.
-bool given_may_fall(const Model& model, const Plan& plan);
-
 /// Path of the finger axis in the object [m]; 0 for a roll.
 double travel_in_pad_plane(const Push& push);
 
@@ -37,7 +32,8 @@ double travel_in_pad_plane(const Push& push);
 /// True if each push completes without slip, certified, with slack >= 0 over plan.margin,
 /// and ends within 1e-6 of where the plan says ([m] and [rad]; where a point pushes, [m]
 /// with angles weighing c), within limits and clear of obstacles; also at half the step,
-/// one push after the other; else `why` names the first that does not.
+/// one push after the other, to a goal of the scene; and if the fingers hold the object
+/// within the margin (holding_check.h). Else `why` names the first that does not.
 bool check_exactly(const Model& model, const TransitionOptions& options, Plan& plan,
                    std::string* why);
 

@@ -160,7 +160,10 @@ class Demands {
                   advance_of(contact, contact.b, model.c, places, directions)} {
     const Vec2 gamma = model.mass / model.F * contact.g_O;
     add_rows(model, contact, gamma, places, directions);
-    if (weightless) add_rows(model, contact, Vec2::Zero(), places, directions);
+    // Without gravity the object turns about a point as it does not with it.
+    if (weightless && !contact.is_point) {
+      add_rows(model, contact, Vec2::Zero(), places, directions);
+    }
   }
 
   bool may_be_met(const FrictionBox& box) const {

@@ -10,6 +10,7 @@
 #include "planner/confines.h"
 #include "planner/costs.h"
 #include "planner/exact_check.h"
+#include "planner/holding_check.h"
 #include "planner/meet_end.h"
 #include "planner/refuse.h"
 #include "planner/replay.h"
@@ -78,12 +79,8 @@ Plan search_with_and_without(const Model& model, const PlanOptions& options, Wor
   const bool undecided =
       plan.status == PlanStatus::kBudgetSpent || plan.status == PlanStatus::kStopped;
   if (!undecided) {
-    if (plan.usable() && given_may_fall(model, plan)) {
-      plan.message =
-          "within the margin the fingers alone may not hold the object at the start or "
-          "at "
-          "the goal, which are given";
-    }
+    std::string caveat = plan.usable() ? given_caveat(model, plan) : std::string();
+    if (!caveat.empty()) plan.message = std::move(caveat);
     return plan;
   }
   if (Limits(options, work).stopped()) {
@@ -192,6 +189,8 @@ void set_bound(const Model& model, Plan& plan) {
   const Goal goal = goal_within_limits(model.scene);
   if (!plan.usable()) {
     plan.lower_bound = trivial_bound(model, start, goal);
+    plan.bound_is_trivial = true;
+    plan.bound_nodes = 0;
     return;
   }
   const LowerBound bound =
@@ -212,6 +211,7 @@ Plan plan_regrasp(const Model& model, const PlanOptions& options) {
   if (bounded) set_bound(model, plan);
   if (plan.usable() && is_delicate(model, plan) && !replay(model, plan).agrees) {
     set_undecided(plan, "the plan found fails as a whole with half the step");
+    account(model, plan);
     set_bound(model, plan);
   }
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;

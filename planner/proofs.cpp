@@ -4,6 +4,7 @@
 #include "mechanics/pad_law.h"
 #include "planner/barrier.h"
 #include "planner/blocked_hand.h"
+#include "planner/costs.h"
 #include "planner/goal_cover.h"
 #include "planner/planner.h"
 #include "planner/refuse.h"
@@ -117,8 +118,9 @@ bool may_roll(const Model& model) {
 
 bool verify_start_falls(const Model& model, const Proof& proof, std::string* why) {
   if (may_roll(model)) return refuse(why, "a support may carry the object");
-  const double power = falling_power(model, model.scene.start.X_HO, model.scene.g_W,
-                                     proof.twist, 0.0, 0.0);
+  const Vec2 g_O = model.scene.g_W / greatest_grip_share(model);
+  const double power =
+      falling_power(model, model.scene.start.X_HO, g_O, proof.twist, 0.0, 0.0);
   if (power > 0.0) return true;
   return refuse(why, "in this twist friction takes as much power as gravity gives");
 }
@@ -134,11 +136,14 @@ bool verify_goal_falls(const Model& model, std::string* why) {
   }
   if (may_roll(model)) return refuse(why, "a support may carry the object");
   const PlanarPose X_HO{*goal.x, *goal.y, *goal.theta};
+  const double turn = angle_tolerance(goal);
+  const double shift = place_tolerance(goal) + turn * translation(X_HO).norm();
   for (const PushContact& contact : model.contacts) {
+    if (contact.is_point) {
+      return refuse(why, "about a point the object may turn to where gravity is held");
+    }
     PlanarTwist twist = PlanarTwist::Zero();
     gravity_slack_by_pad_law(model, grasp_at(model, X_HO, contact.g_O), &twist);
-    const double turn = angle_tolerance(goal);
-    const double shift = place_tolerance(goal) + turn * translation(X_HO).norm();
     if (falling_power(model, X_HO, contact.g_O, twist, shift, turn) <= 0.0) {
       return refuse(why, "gravity is held at a pose of the goal");
     }

@@ -4,6 +4,7 @@
 
 #include "mechanics/pad_law.h"
 #include "planner/barrier.h"
+#include "planner/costs.h"
 #include "planner/limits.h"
 #include "planner/turn_proof.h"
 
@@ -93,8 +94,8 @@ Proof find_proof(const Model& model) {
        {Kind::kNoPusher, Kind::kGoalOffObject, Kind::kGoalBeyondLimits, Kind::kNoRoll}) {
     if (accept(model, make_proof(kind), proof)) return proof;
   }
-  const Proof start =
-      falling_proof(model, Kind::kStartFalls, model.scene.start.X_HO, model.scene.g_W);
+  const Proof start = falling_proof(model, Kind::kStartFalls, model.scene.start.X_HO,
+                                    model.scene.g_W / greatest_grip_share(model));
   if (accept(model, start, proof)) return proof;
   if (goal.x && goal.y && goal.theta && !model.contacts.empty()) {
     const PlanarPose X_HO{*goal.x, *goal.y, *goal.theta};

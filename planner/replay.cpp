@@ -9,8 +9,9 @@
 #include "planner/confines_check.h"
 #include "planner/costs.h"
 #include "planner/exact_check.h"
+#include "planner/holding_check.h"
+#include "planner/member_margin.h"
 #include "planner/planner.h"
-#include "planner/point_margin.h"
 #include "planner/space_margin.h"
 
 namespace prehensile {
@@ -19,7 +20,8 @@ namespace {
 // Relative. The force of a pad of a few points varies as it turns, and so does the
 // extremum of its samples.
 constexpr double kForceTolerance = 0.1;
-constexpr double kCostTolerance = 1e-6;  // relative; the plan file rounds nothing
+constexpr double kCostTolerance = 1e-6;   // relative; the plan file rounds nothing
+constexpr double kSlackTolerance = 1e-4;  // of the friction force; where points push
 
 double position_error(const Grasp& a, const Grasp& b) {
   return std::hypot(a.X_HO.x - b.X_HO.x, a.X_HO.y - b.X_HO.y);
@@ -80,6 +82,22 @@ std::string disagreement(const ReplayedPush& replayed, const ReplayOptions& opti
   return {};
 }
 
+/// What a push claims about itself and what its replay says, or an empty text.
+std::string false_claim(const PlannedPush& planned, const ReplayedPush& replayed,
+                        const ReplayOptions& options) {
+  if (std::isfinite(replayed.slack) &&
+      !(planned.slack <= replayed.slack + kSlackTolerance)) {
+    return "it states more margin than it has";
+  }
+  if (!(planned.certificate <= options.transition.certificate_tolerance)) {
+    return "it states a certificate that does not pass";
+  }
+  if (!(planned.error_estimate >= 0.0 && std::isfinite(planned.error_estimate))) {
+    return "it states an error that is no length";
+  }
+  return {};
+}
+
 ReplayedPush replay_push(const Model& model, const Margin& margin, const Grasp& start,
                          const PlannedPush& planned, const ReplayOptions& options) {
   ReplayedPush replayed;
@@ -93,6 +111,7 @@ ReplayedPush replay_push(const Model& model, const Margin& margin, const Grasp& 
       std::abs(done.max_push_force - planned.push_force) / done.max_push_force;
   replayed.slack = push_slack(model, start, planned.push, margin);
   replayed.why = disagreement(replayed, options);
+  if (replayed.why.empty()) replayed.why = false_claim(planned, replayed, options);
   if (replayed.why.empty()) {
     const PlannedPush here{.push = planned.push, .start = start};
     replayed.why = space_margin_fault(model, here, margin, options.transition);
@@ -105,6 +124,12 @@ bool margin_is_sound(const Margin& margin) {
   return margin.friction >= 0.0 && margin.force >= 0.0 && margin.torque_radius >= 0.0 &&
          margin.place >= 0.0 && margin.centre_of_mass >= 0.0 && margin.grasp >= 0.0 &&
          margin.tilt >= 0.0;
+}
+
+bool promise_is_right(const Plan& plan) {
+  const bool is_nominal =
+      plan.promise == Promise::kNominal || plan.promise == Promise::kNominalOnly;
+  return is_nominal == plan.margin.is_none();
 }
 
 bool agrees(double stated, double computed) {
@@ -204,6 +229,8 @@ std::string first_disagreement(const Model& model, const Plan& plan,
                                const ReplayOptions& options, const Replay& replay) {
   if (!plan.usable()) return "the plan does not claim to reach its goal";
   if (!margin_is_sound(plan.margin)) return "the margin is not a box of uncertainty";
+  if (!promise_is_right(plan))
+    return "the plan does not have the margin that it promises";
   if (!replay.starts_right) return "the plan does not start at the start of the scene";
   if (!replay.connected) return "a push does not start where the one before ended";
   for (std::size_t i = 0; i < replay.pushes.size(); ++i) {
@@ -216,9 +243,15 @@ std::string first_disagreement(const Model& model, const Plan& plan,
   const bool shifts = plan.margin.grasp + plan.margin.tilt > 0.0;
   if (shifts && !stays_on_object(model, plan, &why)) return why;
   if (!replay.confinement.empty()) return replay.confinement;
-  why = point_margin_fault(model, plan, options.transition);
+  why = start_holding_fault(model, plan);
+  if (why.empty()) why = margin_holding_fault(model, plan);
+  if (!why.empty()) return why;
+  why = member_margin_fault(model, plan, options.transition);
   if (!why.empty()) return why;
   if (!replay.reaches_goal) return "the object does not end at the goal";
+  if (!same_grasp(plan.goal, replay.end, options)) {
+    return "the plan states another end than it has";
+  }
   if (!replay.costs_right) return "the costs are not those of the pushes";
   if (!replay.bound_right) return "the lower bound of the cost cannot be proved";
   return {};

@@ -283,7 +283,7 @@ RunLaws run_laws(const Model& model, bool weightless) {
     contacts.reserve(model.contacts.size());
     for (const PushContact& contact : model.contacts) {
       if (std::atan(contact.mu) > kWidestCone) return laws;
-      contacts.push_back(soft_point_law(model, contact, weightless));
+      contacts.push_back(soft_point_law(model, contact, weightless && !contact.is_point));
     }
     laws.contacts = std::move(contacts);
     return laws;
@@ -305,7 +305,7 @@ RunLaws run_laws(const Model& model, bool weightless) {
   for (const PushContact& contact : model.contacts) {
     if (std::atan(contact.mu) + widening > kWidestCone) return laws;
     contacts.push_back(run_law(model, contact, section, widening));
-    if (!weightless) continue;
+    if (!weightless || contact.is_point) continue;
     PushContact floating = contact;
     floating.g_O.setZero();
     contacts.back() =

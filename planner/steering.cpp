@@ -334,18 +334,21 @@ double path_room(const Model& model, const PathEnd& from, const PathEnd& to,
                  const Margin& margin) noexcept {
   constexpr int kParts = 8;
   constexpr double kRounding = 1e-9;  // [m]
-  double most = std::numeric_limits<double>::infinity();
-  for (const PathEnd& end : {from, to}) {
-    if (!end.given) continue;
-    most = std::min(most, distance_to_border(model.pad_face, end.p_OF, end.p_OF));
-  }
-  const double whole = room_of_part(model, from, to, margin, 0.0, 1.0, most);
-  if (whole >= -kRounding || margin.tilt == 0.0) return whole + kRounding;
-  double least = std::numeric_limits<double>::infinity();
+  const double whole = room_of_part(model, from, to, margin, 0.0, 1.0, kInfinity);
+  const bool is_alike = margin.tilt == 0.0 && !from.given && !to.given;
+  if (whole >= -kRounding || is_alike) return whole + kRounding;
+  const auto given_room = [&](const PathEnd& end) {
+    return end.given ? distance_to_border(model.pad_face, end.p_OF, end.p_OF) : kInfinity;
+  };
+  const double of_from = given_room(from);
+  const double of_to = given_room(to);
+  const double length = (to.p_OF - from.p_OF).norm();
+  double least = kInfinity;
   for (int i = 0; i < kParts; ++i) {
-    const double s = static_cast<double>(i) / kParts;
-    least =
-        std::min(least, room_of_part(model, from, to, margin, s, s + 1.0 / kParts, most));
+    const double begin = static_cast<double>(i) / kParts;
+    const double end = static_cast<double>(i + 1) / kParts;
+    const double most = std::min(of_from + begin * length, of_to + (1.0 - end) * length);
+    least = std::min(least, room_of_part(model, from, to, margin, begin, end, most));
   }
   return least + kRounding;
 }

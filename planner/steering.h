@@ -138,14 +138,14 @@ struct PathEnd {
 };
 
 /// The finger axis stays on the object along a straight path even where it is off its
-/// place by what the margin says; but no farther from the border than it is at an end
-/// that is given. `margin` is that of where the path begins. No heap.
+/// place by what the margin says; but no farther from the border than a given end is,
+/// and the way from there. `margin` is that of where the path begins. No heap.
 bool path_on_object(const Model& model, const PathEnd& from, const PathEnd& to,
                     const Margin& margin) noexcept;
 
 /// By how much a straight path inside the face keeps farther from its border than that
-/// asks of it [m]; what tilted pushes carry the finger axis off counts by eighths of the
-/// path. No heap.
+/// asks of it [m]; what tilted pushes carry the finger axis off, and the way from a given
+/// end, count by eighths of the path. No heap.
 double path_room(const Model& model, const PathEnd& from, const PathEnd& to,
                  const Margin& margin) noexcept;
 

@@ -123,10 +123,12 @@ void WalkLattice::add_steps(int stride) {
 
 void WalkLattice::find_held(Node& node, Work& work) const {
   if (!node.held.empty()) return;
+  const bool given = &node - nodes_.data() >= start_;
+  const Margin margin = given ? Margin::none() : search_.margin_from(node.p_OF);
+  const PlanarPose X_HO = pose_from_finger(node.p_OF, 0.0);
   for (const SearchContact& contact : search_.contacts) {
     const Vec2& g_O = model_.contacts[contact.contact].g_O;
-    node.held.push_back(
-        pads_hold_gravity(model_, pose_from_finger(node.p_OF, 0.0), g_O, work));
+    node.held.push_back(pads_hold_gravity(model_, X_HO, g_O, margin, work));
   }
 }
 

@@ -128,6 +128,26 @@ BoxPoint corner(const UncertaintyBox& box, std::uint64_t index) {
   return point;
 }
 
+namespace {
+
+/// A pusher that names no face keeps the one that it is opposite to while it is straight.
+void tilt_pushers(Scene& scene, double tilt) {
+  const auto names_none = [](const Pusher& pusher) { return pusher.faces.empty(); };
+  std::vector<Face> faces;
+  if (std::ranges::any_of(scene.pushers, names_none)) {
+    faces = faces_of(scene.object.shape);
+  }
+  for (Pusher& pusher : scene.pushers) {
+    if (names_none(pusher)) {
+      const int face = face_towards(faces, rotated(pusher.normal_angle, {1.0, 0.0}));
+      if (face >= 0) pusher.faces.push_back(faces[static_cast<std::size_t>(face)].name);
+    }
+    pusher.normal_angle += tilt;
+  }
+}
+
+}  // namespace
+
 UncertainPush vary(const Scene& scene, const Grasp& start, const Push& push,
                    const UncertaintyBox& box, const BoxPoint& at) {
   const auto offset = [&](Unknown unknown) {
@@ -169,7 +189,7 @@ UncertainPush vary(const Scene& scene, const Grasp& start, const Push& push,
     out.scene.object.z_OCom = height_of_mass(scene.object);
   }
   const double tilt = offset(Unknown::kTilt);
-  for (Pusher& pusher : out.scene.pushers) pusher.normal_angle += tilt;
+  if (tilt != 0.0) tilt_pushers(out.scene, tilt);
   std::visit(MovePush{offset(Unknown::kPlace), offset(Unknown::kTravel),
                       offset(Unknown::kDirection) - tilt},
              out.push);

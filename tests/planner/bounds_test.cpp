@@ -253,8 +253,6 @@ TEST(Bounds, AreTrivialWhereTheLawsDoNotHold) {
   EXPECT_TRUE(lower_bound(prepare(scene), scene.start, *scene.goal, 9.0).is_trivial);
 }
 
-/// A plan file may claim anything: a claim that would have questions without number is
-/// no proof.
 /// No contact does these alone, which the program of single placements does not see:
 /// without slabs the bounds are 1.2 and 1.3.
 TEST(Bounds, TellThatOnePlacementDoesNotDo) {
@@ -269,6 +267,30 @@ TEST(Bounds, TellThatOnePlacementDoesNotDo) {
   }
 }
 
+/// Without gravity an object turns about a point as it does not with it, so that pushes
+/// that need no help of gravity are not bound by how they would move it without.
+TEST(Bounds, OfPointsAskNothingMoreWithoutHelpOfGravity) {
+  int proved = 0;
+  for (std::uint64_t i = 0; i < 24; ++i) {
+    const FixtureRange range{.strength = {1.5, 3.0},
+                             .pushers = FixturePushers::kPoints,
+                             .weightless = 0.0,
+                             .goals = GoalsFrom::kRandom};
+    Scene scene = random_fixture(range, 7, i)->scene;
+    scene.overhang = Overhang::kIgnore;
+    const Model model = prepare(scene);
+    const auto bound = [&](bool weightless) {
+      return lower_bound(model, scene.start, *scene.goal, 3.0,
+                         {.nodes = 500, .weightless = weightless});
+    };
+    EXPECT_DOUBLE_EQ(bound(true).value, bound(false).value) << i;
+    proved += bound(false).is_trivial ? 0 : 1;
+  }
+  EXPECT_GT(proved, 0);
+}
+
+/// A plan file may claim anything: a claim that would have questions without number is
+/// no proof.
 TEST(Bounds, AbsurdClaimsAreRefused) {
   const Scene scene = published_tee(3);
   const Model model = prepare(scene);

@@ -230,5 +230,33 @@ TEST_F(OneBody, ThePusherItselfIsNoObstacle) {
   EXPECT_FALSE(plan_regrasp(prepare(scene_), nominal(100'000)).usable());
 }
 
+/// Limits that leave out a few degrees: a hand that turns past them leaves them, however
+/// short the gap.
+TEST(ConfinesCheck, AHandTurnsOverNoGapInItsLimits) {
+  Scene scene = testing::walled_square();
+  const Model free = prepare(scene);
+  const LinearPush push{
+      .contact = 0, .e = free.contacts[0].n, .travel = 0.01, .turn = 0.9};
+  PlannedPush planned{.push = push, .start = scene.start, .end = scene.start};
+  planned.end.X_HO = pusher_pose(push, scene.start.X_HO, 1.0);
+  const double from = free.contacts[0].theta_WO - planned.start.X_HO.theta;
+  const double to = free.contacts[0].theta_WO - planned.end.X_HO.theta;
+  const auto fault = [&](double gap_at, double half_gap) {
+    scene.limits = GraspLimits{.hand_angle_low = gap_at + half_gap,
+                               .hand_angle_high = gap_at + 2.0 * kPi - half_gap};
+    return confinement_fault(prepare(scene), {planned});
+  };
+  for (const double half_gap : {1e-3, 0.02, 0.1}) {
+    for (int k = -2; k <= 2; ++k) {
+      const double whole = 2.0 * kPi * k;
+      for (const double share : {0.02, 0.31, 0.5, 0.77, 0.98}) {
+        EXPECT_NE(fault(from + share * (to - from) + whole, half_gap), "") << share;
+      }
+      EXPECT_EQ(fault(to + std::copysign(0.2, to - from) + whole, half_gap), "");
+      EXPECT_EQ(fault(from - std::copysign(0.2, to - from) + whole, half_gap), "");
+    }
+  }
+}
+
 }  // namespace
 }  // namespace prehensile

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "mechanics/certificate.h"
+#include "primitives/uncertainty.h"
 #include "tests/planner/planner_cases.h"
 #include "tests/support/random.h"
 
@@ -46,6 +47,45 @@ TEST(Holding, AgreesWithTheSlackOfGravity) {
   EXPECT_GT(held, 500);
   EXPECT_GT(fallen, 500);
   EXPECT_GT(counted, 100);  // what is not told cheaply is work
+}
+
+/// What is held over a margin is held by the points of the pads at any of its members;
+/// and what members show not to be held is not.
+TEST(Holding, OverAMarginIsHeldByItsMembers) {
+  Random random(9);
+  int held = 0;
+  int fallen = 0;
+  for (int i = 0; i < 600; ++i) {
+    Scene scene = testing::walled_square();
+    const double size = random.in(0.004, 0.012);
+    const Pad pads[] = {DiscPad{size}, RectanglePad{{2.0 * size, size}}};
+    scene.gripper.pad = pads[random.below(2)];
+    scene.overhang = Overhang::kIgnore;
+    scene.gripper.grip_force = random.log_in(4.0, 40.0);
+    const Model model = prepare(scene);
+    const Margin margin = usual_margin(model);
+    const Vec2 p_OF = random.in_box(0.04, 0.03);
+    const double theta = random.in(-3.0, 3.0);
+    const PlanarPose X_HO = pose_from_finger(p_OF, theta);
+    const Vec2 g_O = 9.81 * random.direction();
+    Work work;
+    const bool all = pads_hold_gravity(model, X_HO, g_O, margin, work);
+    bool members = true;
+    for (int k = 0; k < 40; ++k) {
+      Scene other = scene;
+      other.gripper.pad = resized(scene.gripper.pad, 1.0 - margin.torque_radius);
+      other.object.mass *= 1.0 + margin.force;
+      const Vec2 off = random.direction() * (margin.grasp + margin.centre_of_mass);
+      const Model member = prepare(other);
+      const Vec2 g = rotated(random.chance(0.5) ? margin.tilt : -margin.tilt, g_O);
+      members = members && gravity_slack(grasp_at(
+                               member, pose_from_finger(p_OF + off, theta), g)) > 1e-4;
+    }
+    EXPECT_TRUE(members || !all) << i;
+    (all ? held : fallen) += 1;
+  }
+  EXPECT_GT(held, 100);
+  EXPECT_GT(fallen, 100);
 }
 
 TEST(Holding, NoGravityIsAlwaysHeld) {

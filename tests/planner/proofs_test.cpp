@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/refuse.h"
+#include "planner/replay.h"
 #include "scene/constants.h"
 #include "tests/planner/planner_cases.h"
 #include "tests/support/random.h"
@@ -105,6 +106,38 @@ TEST(Proofs, GoalFalls) {
   scene.gripper.grip_force = 8.0;
   scene.goal = goal_at({-0.045, 0.0}, 0.0);
   expect_refusal(scene, Proof::Kind::kGoalFalls);
+}
+
+/// An object that turns about a point takes gravity in other attitudes with it.
+TEST(Proofs, NoGoalFallsAboutAPoint) {
+  Scene scene = walled_square();
+  scene.gripper.grip_force = 8.0;
+  scene.goal = goal_at({-0.045, 0.0}, 0.0);
+  const Proof of_lines = find_proof(prepare(scene));
+  ASSERT_EQ(of_lines.kind, Proof::Kind::kGoalFalls);
+  scene.pushers.front().feature = PointFeature{};
+  std::string why;
+  EXPECT_FALSE(verify(prepare(scene), of_lines, &why));
+  EXPECT_NE(why.find("point"), std::string::npos);
+}
+
+/// The hand may hold the start with the force of the first push.
+TEST(Proofs, StartFallsOnlyIfItDoesWithTheGreatestGrip) {
+  Scene scene = walled_square();
+  scene.gripper.grip_force = 2.0;
+  scene.start.X_HO = pose_from_finger({0.045, 0.0}, 0.0);
+  scene.goal = goal_at({0.0, 0.0}, 0.0);
+  const Proof falls = find_proof(prepare(scene));
+  ASSERT_EQ(falls.kind, Proof::Kind::kStartFalls);
+  scene.gripper.grip_range = Vec2(2.0, 60.0);
+  const Model model = prepare(scene);
+  EXPECT_FALSE(verify(model, falls));
+  const Plan plan = plan_regrasp(model);
+  ASSERT_TRUE(plan.usable()) << plan.message;
+  const Replay done = replay(model, plan);
+  EXPECT_TRUE(done.agrees) << done.why;
+  scene.gripper.grip_range = Vec2(2.0, 2.5);
+  EXPECT_EQ(find_proof(prepare(scene)).kind, Proof::Kind::kStartFalls);
 }
 
 TEST(Proofs, NoPusher) {

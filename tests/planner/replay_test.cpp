@@ -60,6 +60,16 @@ TEST_F(ReplayTest, RejectsTamperedPlans) {
   expect_rejected("wider margin",
                   [](Plan& plan) { plan.margin = plan.margin.scaled(9.0); });
   expect_rejected("negative margin", [](Plan& plan) { plan.margin.place = -1.0; });
+  expect_rejected("more slack", [](Plan& plan) { plan.pushes[0].slack += 0.01; });
+  expect_rejected("no slack", [](Plan& plan) { plan.pushes[1].slack = kNan; });
+  expect_rejected("bad certificate",
+                  [](Plan& plan) { plan.pushes[0].certificate = 1e12; });
+  expect_rejected("no certificate",
+                  [](Plan& plan) { plan.pushes[0].certificate = kNan; });
+  expect_rejected("no error", [](Plan& plan) { plan.pushes[0].error_estimate = kNan; });
+  expect_rejected("other end", [](Plan& plan) { plan.goal.X_HO.x += 1e-3; });
+  expect_rejected("no margin", [](Plan& plan) { plan.margin = Margin::none(); });
+  expect_rejected("no promise", [](Plan& plan) { plan.promise = Promise::kNominal; });
   expect_rejected("no claim", [](Plan& plan) { plan.status = PlanStatus::kBudgetSpent; });
 }
 

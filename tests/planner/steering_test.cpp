@@ -340,5 +340,40 @@ TEST(Steering, PathsKeepTheRoomThatTheirDriftNeeds) {
   EXPECT_GT(longer, 20);
 }
 
+/// An end that is given excuses what is near it, and no corner far away.
+TEST(Steering, AGivenEndExcusesThePathNearItOnly) {
+  const Model model = prepare(published_tee(3));
+  Random random(9);
+  Margin margin = Margin::none();
+  margin.grasp = 2e-3;
+  int excused = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const PathEnd from{random.in_box(0.05, 0.05), random.chance(0.5)};
+    const PathEnd to{random.in_box(0.05, 0.05), random.chance(0.5)};
+    if (!path_on_object(model, from, to, margin)) continue;
+    const double length = (to.p_OF - from.p_OF).norm();
+    for (int k = 0; k <= 40; ++k) {
+      const double s = k / 40.0;
+      const Vec2 p_OF = from.p_OF + s * (to.p_OF - from.p_OF);
+      double needed = margin.grasp;
+      const auto excuse = [&](const PathEnd& end, double way) {
+        if (!end.given) return;
+        needed = std::min(needed,
+                          way + distance_to_border(model.pad_face, end.p_OF, end.p_OF));
+      };
+      excuse(from, s * length);
+      excuse(to, (1.0 - s) * length);
+      excused += needed < margin.grasp;
+      EXPECT_GE(distance_to_border(model.pad_face, p_OF, p_OF),
+                needed - length / 8.0 * (needed < margin.grasp) - 1e-8);
+      if (s * length > length / 8.0 + margin.grasp &&
+          (1.0 - s) * length > length / 8.0 + margin.grasp) {
+        EXPECT_GE(distance_to_border(model.pad_face, p_OF, p_OF), margin.grasp - 1e-8);
+      }
+    }
+  }
+  EXPECT_GT(excused, 100);
+}
+
 }  // namespace
 }  // namespace prehensile

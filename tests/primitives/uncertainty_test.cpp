@@ -65,6 +65,26 @@ TEST(Uncertainty, ContactsOfVariedScenesAreFoundAgain) {
   EXPECT_EQ(counterpart(model, 0, prepare(varied)), -1);
 }
 
+/// A pusher that names no face touches the one opposite to it, and does so tilted, too:
+/// one half way between two faces has no other when it is tilted.
+TEST(Uncertainty, TiltedPushersKeepTheirFace) {
+  Scene scene = random_push(3, 1).scene;
+  scene.object.shape = PrismShape{
+      {{-0.03, -0.03}, {0.03, -0.03}, {0.03, 0.03}, {-0.03, 0.03}}, 0.02, Axis::kZ};
+  scene.pushers = {
+      {.name = "post", .feature = PointFeature{}, .normal_angle = 0.75 * kPi}};
+  const Model model = prepare(scene);
+  ASSERT_EQ(model.contacts.size(), 1U);
+  UncertaintyBox box;
+  box[Unknown::kTilt] = 0.01;
+  for (const double tilt : {-1.0, -1e-9, 0.0, 1e-9, 1.0}) {
+    BoxPoint at{};
+    at[static_cast<std::size_t>(Unknown::kTilt)] = tilt;
+    const Scene varied = vary(scene, scene.start, LinearPush{}, box, at).scene;
+    EXPECT_EQ(counterpart(model, 0, prepare(varied)), 0) << tilt;
+  }
+}
+
 TEST(Uncertainty, EachUnknownMovesItsOwnField) {
   const RandomPush random = random_push(3, 1);
   const Scene& scene = random.scene;

@@ -47,7 +47,7 @@ set(costly_when_sanitized
   Planner.SolvesConstructedCans
   Planner.SolvesConstructedTees
   Planner.WithoutTheHelpOfGravityPushesStickWithoutGravity
-  PointMargin.PlansWithAMarginSurviveTheBox
+  MemberMargin.PlansWithAMarginSurviveTheBox
   ProblemList.ProblemsAreSoundAndTheSameEachTime
   Proofs.GoalBesideTheMiddleLineOfACan
   PushCalibration.MirroredPushesGiveMirroredRegistration

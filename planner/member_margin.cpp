@@ -1,4 +1,4 @@
-#include "planner/point_margin.h"
+#include "planner/member_margin.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -30,22 +30,28 @@ UncertaintyBox box_of(const Margin& margin) {
 
 }  // namespace
 
-std::string point_margin_fault(const Model& model, const Plan& plan,
-                               const TransitionOptions& options) {
-  const bool turns_freely =
+std::string member_margin_fault(const Model& model, const Plan& plan,
+                                const TransitionOptions& options) {
+  const bool by_points =
       std::any_of(plan.pushes.begin(), plan.pushes.end(),
                   [&](const PlannedPush& push) { return is_by_point(model, push.push); });
   const UncertaintyBox box = box_of(plan.margin);
-  if (!turns_freely || box.active().empty()) return {};
+  if ((!by_points && !model.cross_section) || box.active().empty()) return {};
   for (std::uint64_t i = 0; i < kTrials; ++i) {
     BoxPoint at = corner(box, i * kStride);
     at[static_cast<std::size_t>(Unknown::kFriction)] = -1.0;
     const PlanTrial trial = try_plan(model, plan, box, at, options);
-    if (!trial.is_scene || trial.sticks) continue;
+    if (trial.sticks) continue;
+    // Without a first push the start is off the object, which is given.
+    if (!trial.is_scene && trial.failed_push < 0) continue;
+    // Where the fingers hold a can is known without members (holding_check.h).
+    if (!by_points && trial.status == TransitionStatus::kFalls) continue;
+    const bool slips = trial.status == TransitionStatus::kCompleted;
     return "push " + std::to_string(trial.failed_push + 1) +
-           ": within the margin the object turns about the point otherwise, and " +
-           (trial.status == TransitionStatus::kCompleted ? "slips"
-                                                         : name(trial.status).data());
+           ": a member of the box within the margin " +
+           (!trial.is_scene ? "has no such contact"
+            : slips         ? "slips"
+                            : "ends: " + std::string(name(trial.status)));
   }
   return {};
 }

@@ -1,4 +1,4 @@
-#include "planner/point_margin.h"
+#include "planner/member_margin.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ std::optional<Model> points_around_a_box(std::uint64_t index) {
 }
 
 /// Draws of the box other than the corners that the plan was tried at.
-TEST(PointMargin, PlansWithAMarginSurviveTheBox) {
+TEST(MemberMargin, PlansWithAMarginSurviveTheBox) {
   constexpr int kDraws = 60;
   int draws = 0;
   int stuck = 0;
@@ -39,7 +39,7 @@ TEST(PointMargin, PlansWithAMarginSurviveTheBox) {
 }
 
 /// Plans that were made without a margin, and the usual one claimed for them.
-TEST(PointMargin, RefusesPlansThatDoNot) {
+TEST(MemberMargin, RefusesPlansThatDoNot) {
   int refused = 0;
   for (std::uint64_t i = 0; i < 20; ++i) {
     const auto model = points_around_a_box(i);
@@ -48,9 +48,9 @@ TEST(PointMargin, RefusesPlansThatDoNot) {
     options.margin = Margin::none();
     Plan plan = plan_regrasp(*model, options);
     if (!plan.usable()) continue;
-    EXPECT_EQ(point_margin_fault(*model, plan, {}), "") << i;
+    EXPECT_EQ(member_margin_fault(*model, plan, {}), "") << i;
     plan.margin = usual_margin(*model);
-    const std::string fault = point_margin_fault(*model, plan, {});
+    const std::string fault = member_margin_fault(*model, plan, {});
     if (fault.empty()) continue;
     ++refused;
     EXPECT_NE(fault.find("within the margin"), std::string::npos) << fault;

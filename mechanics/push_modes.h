@@ -94,6 +94,11 @@ inline constexpr double kJudged = 1e-9;
 /// Rates below this are the rounding of a pusher that moves along its face.
 inline constexpr double kGrazing = 1e-13;
 
+/// Two twists that are one motion but for rounding, in units of ScaledPush.
+inline bool is_same_motion(const PlanarTwist& u, const PlanarTwist& v) {
+  return (u - v).norm() <= 1e-7 * (1.0 + v.norm());
+}
+
 template <class Body>
 class PushModes {
  public:
@@ -216,7 +221,7 @@ class PushModes {
     int count = 0;
     const auto keep = [&](const Motion& motion) {
       for (int k = 0; k < count; ++k) {
-        if ((motions[k].u - motion.u).norm() <= 1e-7 * (1.0 + motion.u.norm())) return;
+        if (is_same_motion(motions[k].u, motion.u)) return;
       }
       if (count < kMost) motions[count++] = motion;
     };

@@ -120,6 +120,7 @@ PushVerdict judge_unheld(const Body& body, const ScaledPush& push,
 
 /// A pusher that approaches at no point: the object rests in the pads. With `probe`, also
 /// looks for the object being dragged along by friction, which a receding pusher can do.
+/// A mode scaled to an approach that is rounding is no such motion: it is rest.
 template <class Body>
 PushVerdict judge_receding(const Body& body, const ScaledPush& push, bool probe) {
   PushVerdict verdict;
@@ -130,31 +131,37 @@ PushVerdict judge_receding(const Body& body, const ScaledPush& push, bool probe)
   judge(push, verdict.motion);
   if (!probe) return verdict;
   std::array<Motion, PushModes<Body>::kMost> motions;
-  if (PushModes<Body>(body, push).all_motions(motions) > 0) {
+  const int count = PushModes<Body>(body, push).all_motions(motions);
+  for (int k = 0; k < count && !verdict.has_other; ++k) {
+    if (is_same_motion(motions[k].u, verdict.motion.u)) continue;
     verdict.status = InstantStatus::kAmbiguous;
     verdict.has_other = true;
-    verdict.other = motions[0].u;
+    verdict.other = motions[k].u;
   }
   return verdict;
 }
 
 /// A pad that is one point lets the object turn about it without resistance: the object
-/// may swing off the pusher at any sufficient rate.
-inline bool swings_off(const ScaledPush& push, PlanarTwist& swing) {
+/// may swing off the pusher at any sufficient rate. Sought at about the rate of the push
+/// first, as a pusher that hardly approaches would tell it from the motion `u` no more.
+inline bool swings_off(const ScaledPush& push, const PlanarTwist& u, PlanarTwist& swing) {
+  double reach = 0.0;
+  for (int i = 0; i < push.count; ++i) reach = std::max(reach, push.p[i].norm());
   for (const double side : {1.0, -1.0}) {
+    const auto opening = [&](int i) { return side * push.n.dot(perp(push.p[i])); };
     double rate = 0.0;
-    bool possible = true;
     for (int i = 0; i < push.count; ++i) {
-      const double opening = side * push.n.dot(perp(push.p[i]));
-      if (opening > 1e-9) rate = std::max(rate, push.approach(i) / opening);
+      if (opening(i) > 1e-9) rate = std::max(rate, 2.0 * push.approach(i) / opening(i));
     }
-    for (int i = 0; i < push.count; ++i) {
-      const double opening = side * push.n.dot(perp(push.p[i]));
-      possible = possible && 2.0 * rate * opening >= push.approach(i);
+    if (rate <= 0.0) continue;
+    for (const double turn : {std::max(rate, 1.0 / reach), rate}) {
+      bool possible = true;
+      for (int i = 0; i < push.count; ++i) {
+        possible = possible && turn * opening(i) >= push.approach(i);
+      }
+      swing = {0.0, 0.0, side * turn};
+      if (possible && !is_same_motion(swing, u)) return true;
     }
-    if (!possible || rate <= 0.0) continue;
-    swing = {0.0, 0.0, 2.0 * side * rate};
-    return true;
   }
   return false;
 }
@@ -188,7 +195,11 @@ PushVerdict judge_push(const Body& body, const ScaledPush& push, const Motion* k
     if (count > 1) verdict.other = motions[1].u;
   }
   if (!found) return verdict;
-  if (body.is_point() && swings_off(push, verdict.other)) verdict.has_other = true;
+  PlanarTwist swing;
+  if (body.is_point() && swings_off(push, verdict.motion.u, swing)) {
+    verdict.has_other = true;
+    verdict.other = swing;
+  }
   const bool forces_vary = verdict.motion.force_high - verdict.motion.force_low > kJudged;
   verdict.status = verdict.has_other ? InstantStatus::kAmbiguous
                    : forces_vary     ? InstantStatus::kNonuniqueForces

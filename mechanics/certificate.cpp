@@ -44,23 +44,6 @@ void check_newton(const PlanarGrasp& grasp, const PlanarDrive& drive,
   findings.note(Check::kNewton, std::abs(answer.push_force - size) / units.force, 0);
 }
 
-/// A label that contradicts the numbers it stands for.
-double mislabelled(const PusherPoint& point, double normal, double opening, double slip) {
-  switch (point.mode) {
-    case ContactMode::kOpen:
-      return std::abs(normal);
-    case ContactMode::kStick:
-      return std::max(std::abs(opening), std::abs(slip));
-    case ContactMode::kSlipPlus:
-      return std::max(std::abs(opening), -slip);
-    case ContactMode::kSlipMinus:
-      return std::max(std::abs(opening), slip);
-    case ContactMode::kSlip:
-      break;
-  }
-  return 1.0;
-}
-
 /// Unilateral contact and Coulomb friction of the pusher, paper eq. (1), (3), (4).
 void check_pusher(const PlanarDrive& drive, const PlanarInstant& answer,
                   const CertificateUnits& units, int first_index,
@@ -76,7 +59,7 @@ void check_pusher(const PlanarDrive& drive, const PlanarInstant& answer,
                   std::abs(point.normal_rate / units.rate - rate.x()), index);
     findings.note(Check::kPusherMotion, std::abs(point.slip_rate / units.rate - rate.y()),
                   index);
-    findings.note(Check::kPenetration, std::max(-normal, -rate.x()), index);
+    findings.note(Check::kPenetration, worse(-normal, -rate.x()), index);
     findings.note(Check::kComplementary,
                   std::min(std::max(0.0, normal), std::max(0.0, rate.x())), index);
     findings.note(Check::kComplementary, mislabelled(point, normal, rate.x(), rate.y()),

@@ -1,19 +1,18 @@
 #include "mechanics/certificate_evidence.h"
 
 #include <algorithm>
-
-#include <Eigen/SVD>
+#include <limits>
 
 #include "mechanics/certificate.h"
+#include "mechanics/cone_balance.h"
 
 namespace prehensile {
 namespace {
 
-constexpr double kClaimed = 1e-9;   ///< tolerance of inequalities in claims
-constexpr double kAtRest = 1e-7;    ///< rates below this count as sticking, in units
-constexpr double kPivots = 1e-9;    ///< the same for finger points, relative to the pads
-constexpr double kPointPad = 1e-6;  ///< pads this small count as one point, in units
-constexpr double kFails = 1.0;      ///< the claim is false
+constexpr double kGains = 1e-12;     ///< gains of power below this are rounding, relative
+constexpr double kAdvances = 5e-14;  ///< the same for rates of the pusher
+constexpr double kPivots = 1e-9;     ///< the same for finger points, relative to the pads
+constexpr double kPointPad = 1e-6;   ///< pads this small count as one point, in units
 
 double pad_capacity(const PlanarGrasp& grasp) {
   double sum = 0.0;
@@ -40,113 +39,6 @@ bool clearly_held(const PlanarGrasp& grasp, const CertificateUnits& units) {
   return square > 0.0 && force_share + std::abs(w[2]) * reach / square < 1.0;
 }
 
-/// Forces that a given twist leaves open, driven as close to balance as they go: a finger
-/// point at rest takes any force within its bound, and the pusher's cones give multiples,
-/// none negative, of at most four edges. The best multiples use linearly independent
-/// edges, so all small subsets of edges are tried; each is a linear least-squares
-/// problem.
-class Balance {
- public:
-  explicit Balance(const Vec3& rest) : rest_(rest) {}
-
-  /// `wrench` comes with a normal force of 1.
-  void add_edge(const Vec3& wrench) {
-    const double size = wrench.norm();
-    edges_[count_] = wrench / size;
-    normals_[count_++] = 1.0 / size;
-  }
-
-  /// The finger point at rest: its lever and bound. Points in the same place add up.
-  void add_pivot(const Vec2& lever, double bound) {
-    if (has_pivot_ && (lever - pivot_).norm() > 4.0 * kPointPad) several_ = true;
-    has_pivot_ = true;
-    pivot_ = lever;
-    bound_ += bound;
-  }
-
-  void prescribe_normal_sum(double sum) {
-    prescribed_ = true;
-    normal_sum_ = sum;
-  }
-
-  double least_violation() const {
-    if (several_) return kFails;  // At rest: not another motion.
-    double least = violation(Eigen::Vector4d::Zero());
-    for (int subset = 1; subset < (1 << count_); ++subset) {
-      least = std::min(least, violation(best_multiples(subset)));
-    }
-    return least;
-  }
-
- private:
-  /// Rows to be made small (first) and to be met (last), as functions of the multiples:
-  /// without a pivot the whole wrench is to be small; with one, its moment about the
-  /// pivot is to vanish and its force to stay within the bound.
-  struct Rows {
-    Eigen::Matrix<double, 4, 5> values = Eigen::Matrix<double, 4, 5>::Zero();
-    int small = 0;
-    int exact = 0;
-  };
-
-  Rows rows() const {
-    Rows rows;
-    Eigen::Matrix<double, 3, 5> wrenches;
-    for (int k = 0; k < 4; ++k) wrenches.col(k) = k < count_ ? edges_[k] : Vec3::Zero();
-    wrenches.col(4) = rest_;
-    if (has_pivot_) {  // Moments about the pivot.
-      wrenches.row(2) -= pivot_.x() * wrenches.row(1) - pivot_.y() * wrenches.row(0);
-    }
-    rows.values.topRows<3>() = wrenches;
-    rows.small = has_pivot_ ? 2 : 3;
-    rows.exact = has_pivot_ ? 1 : 0;
-    if (prescribed_) {
-      for (int k = 0; k < count_; ++k)
-        rows.values(rows.small + rows.exact, k) = normals_[k];
-      rows.values(rows.small + rows.exact, 4) = -normal_sum_;
-      ++rows.exact;
-    }
-    return rows;
-  }
-
-  /// Least squares over the edges of a subset; rows to be met weigh more.
-  Eigen::Vector4d best_multiples(int subset) const {
-    const Rows all = rows();
-    Eigen::Matrix4d matrix = all.values.leftCols<4>();
-    Eigen::Vector4d right = -all.values.col(4);
-    matrix.middleRows(all.small, all.exact) *= kWeight;
-    right.segment(all.small, all.exact) *= kWeight;
-    for (int k = 0; k < 4; ++k) {
-      if (k >= count_ || (subset >> k & 1) == 0) matrix.col(k).setZero();
-    }
-    const Eigen::JacobiSVD<Eigen::Matrix4d> factors(
-        matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    return Eigen::Vector4d(factors.solve(right)).cwiseMax(0.0);
-  }
-
-  double violation(const Eigen::Vector4d& multiples) const {
-    const Rows all = rows();
-    const Eigen::Vector4d gap = all.values.leftCols<4>() * multiples + all.values.col(4);
-    const double small = gap.head(all.small).norm();
-    double worst = has_pivot_ ? std::max(0.0, small - bound_) : small;
-    for (int k = 0; k < all.exact; ++k)
-      worst = worse(worst, std::abs(gap[all.small + k]));
-    return worst;
-  }
-
-  static constexpr double kWeight = 1e4;
-
-  Vec3 rest_;
-  int count_ = 0;
-  std::array<Vec3, 4> edges_;
-  std::array<double, 4> normals_{};
-  bool has_pivot_ = false;
-  bool several_ = false;
-  Vec2 pivot_ = Vec2::Zero();
-  double bound_ = 0.0;
-  bool prescribed_ = false;
-  double normal_sum_ = 0.0;
-};
-
 /// Wrench of a force at p.
 Vec3 wrench_at(const CertificateUnits& units, const Vec2& p, const Vec2& f) {
   const Vec2 r = (p - units.centre) / units.length;
@@ -169,11 +61,25 @@ bool is_unopposed(const PlanarDrive& drive, const PlanarTwist& v, double mu,
   return true;
 }
 
+/// The twist at unit size: squares of tiny rates would vanish. NaN if it has none.
+Vec3 unit_twist(const PlanarTwist& v, const CertificateUnits& units) {
+  const Vec3 scaled = units.scaled_twist(v);
+  return (scaled / scaled.cwiseAbs().maxCoeff()).normalized();
+}
+
+/// Power that gravity gains over the pads by this twist of unit size, in units.
+double gain_of(const PlanarGrasp& grasp, const Vec3& v, const CertificateUnits& units) {
+  const double taken = friction_power(grasp, units.twist(v)) / (units.force * units.rate);
+  return units.scaled_wrench(grasp.w_g).dot(v) - taken;
+}
+
 double dynamic_violation(const PlanarGrasp& grasp, const PlanarDrive& drive,
-                         const PlanarTwist& v, const CertificateUnits& units) {
-  if (!v.allFinite()) return kNan;
-  const double gain = grasp.w_g.dot(v) - friction_power(grasp, v);
-  if (!(gain > 0.0)) return kFails;
+                         const PlanarTwist& evidence, const CertificateUnits& units) {
+  if (!evidence.allFinite()) return kNan;
+  const Vec3 unit = unit_twist(evidence, units);
+  const double least = kGains * units.scaled_wrench(grasp.w_g).norm();
+  if (!(gain_of(grasp, unit, units) > least)) return kFails;
+  const PlanarTwist v = units.twist(unit);
   const bool cannot_be_held = is_unopposed(drive, v, drive.mu, units);
   const bool falls_away = is_unopposed(drive, v, 0.0, units);
   return cannot_be_held || falls_away ? 0.0 : kFails;
@@ -189,24 +95,10 @@ double ambiguous_violation(const PlanarGrasp& grasp, const PlanarDrive& drive,
     worst = motion_violation(grasp, drive, answer.other, units);
   }
   if (answer.evidence.allFinite()) {
-    const PlanarTwist& v = answer.evidence;
-    const double scale = units.force * units.rate * units.scaled_twist(v).norm();
-    const double slack = friction_power(grasp, v) - grasp.w_g.dot(v);
-    worst = worse(worst, slack / scale);
-    shown = shown || scale > 0.0;
+    worst = worse(worst, -gain_of(grasp, unit_twist(answer.evidence, units), units));
+    shown = true;
   }
   return shown ? worst : kFails;
-}
-
-double rest_violation(const PlanarDrive& drive, const PlanarInstant& answer,
-                      const CertificateUnits& units) {
-  double worst = units.scaled_twist(answer.V_HO).norm();
-  const bool separated = answer.status == InstantStatus::kSeparated;
-  for (int i = 0; i < drive.count; ++i) {
-    const double load = answer.pusher[i].normal_force / units.force;
-    if (separated) worst = worse(worst, std::abs(load));
-  }
-  return worst;
 }
 
 /// The ends of the interval are extreme, where balance is hard to find; forces within a
@@ -217,9 +109,8 @@ double interval_violation(const PlanarGrasp& grasp, const PlanarDrive& drive,
   for (int i = 0; i < drive.count; ++i) sum += answer.pusher[i].normal_force;
   const double below = (answer.force_low - sum) / units.force;
   const double above = (sum - answer.force_high) / units.force;
-  if (std::isnan(below) || std::isnan(above)) return kNan;
   const double inward = 1e-3 * (answer.force_high - answer.force_low);
-  double worst = std::max({0.0, below, above});
+  double worst = worst_of({below, above});
   for (const double end : {answer.force_low + inward, answer.force_high - inward}) {
     worst = worse(worst, -end / units.force);
     worst = worse(worst,
@@ -287,6 +178,45 @@ CertificateUnits certificate_units(const PlanarGrasp& grasp, const PlanarDrive& 
   return units;
 }
 
+double motion_claim_violation(const PlanarDrive& drive, const PlanarInstant& answer,
+                              double size, double force, double rate) {
+  double advance = -std::numeric_limits<double>::infinity();
+  double load = 0.0;
+  for (int i = 0; i < drive.count; ++i) {
+    const Vec2& p = drive.p_HC[i];
+    const Vec2 v = velocity(drive.V_HP, p.x(), p.y());
+    advance = worse(advance, drive.n_H.dot(v) / rate);
+    load = worse(load, std::abs(answer.pusher[i].normal_force) / force);
+  }
+  switch (answer.status) {
+    case InstantStatus::kHolds:  // The pusher slides along the object.
+      return worse(size, std::abs(advance));
+    case InstantStatus::kSeparated:
+      return worse(size, load);
+    default:
+      break;
+  }
+  // What moves is pushed: it would rest if the pusher did not advance.
+  const bool moves = size > kClaimed || advance > kAdvances;
+  return moves && advance >= -kClaimed ? 0.0 : kFails;
+}
+
+double mislabelled(const PusherPoint& point, double normal, double opening, double slip) {
+  switch (point.mode) {
+    case ContactMode::kOpen:
+      return std::abs(normal);
+    case ContactMode::kStick:
+      return worse(std::abs(opening), std::abs(slip));
+    case ContactMode::kSlipPlus:
+      return worse(std::abs(opening), -slip);
+    case ContactMode::kSlipMinus:
+      return worse(std::abs(opening), slip);
+    case ContactMode::kSlip:
+      break;
+  }
+  return kFails;
+}
+
 double friction_power(const PlanarGrasp& grasp, const PlanarTwist& u) {
   double sum = 0.0;
   for (int j = 0; j < grasp.count; ++j) {
@@ -301,7 +231,8 @@ namespace {
 double pivot_speed(const PlanarTwist& V_HO, const CertificateUnits& units) {
   const Vec2 v = velocity(V_HO, units.centre.x(), units.centre.y());
   const bool is_point = units.lever <= kPointPad * units.length;
-  const double lever = is_point ? 4.0 * kPointPad / kPivots * units.length : units.lever;
+  const double lever =
+      is_point ? ConeBalance::kOnePoint / kPivots * units.length : units.lever;
   return kPivots * (v.norm() + std::abs(V_HO[2]) * lever);
 }
 
@@ -324,7 +255,7 @@ Vec3 moving_wrench(const PlanarGrasp& grasp, const PlanarTwist& V_HO,
 double motion_violation(const PlanarGrasp& grasp, const PlanarDrive& drive,
                         const PlanarTwist& V_HO, const CertificateUnits& units,
                         double normal_sum) {
-  Balance balance(moving_wrench(grasp, V_HO, units));
+  ConeBalance balance(moving_wrench(grasp, V_HO, units));
   double penetration = 0.0;
   for (int i = 0; i < drive.count; ++i) {
     const Vec2& p = drive.p_HC[i];
@@ -350,18 +281,19 @@ double motion_violation(const PlanarGrasp& grasp, const PlanarDrive& drive,
 
 double evidence_violation(const PlanarGrasp& grasp, const PlanarDrive& drive,
                           const PlanarInstant& answer, const CertificateUnits& units) {
-  const auto held = [&] {
-    if (!grasp.inertia.isZero(0.0) || clearly_held(grasp, units)) return 0.0;
-    return gravity_slack(grasp) < -kClaimed ? kFails : 0.0;
+  const auto held_and_claimed = [&] {
+    if (!grasp.inertia.isZero(0.0)) return 0.0;
+    if (!clearly_held(grasp, units) && gravity_slack(grasp) < -kClaimed) return kFails;
+    const double size = units.scaled_twist(answer.V_HO).norm();
+    return motion_claim_violation(drive, answer, size, units.force, units.rate);
   };
   switch (answer.status) {
     case InstantStatus::kMoves:
-      return held();
     case InstantStatus::kHolds:
     case InstantStatus::kSeparated:
-      return worse(held(), rest_violation(drive, answer, units));
+      return held_and_claimed();
     case InstantStatus::kNonuniqueForces:
-      return worse(held(), interval_violation(grasp, drive, answer, units));
+      return worse(held_and_claimed(), interval_violation(grasp, drive, answer, units));
     case InstantStatus::kAmbiguous:
       return ambiguous_violation(grasp, drive, answer, units);
     case InstantStatus::kDynamic:

@@ -2,12 +2,32 @@
 /// solvers. Internal to the mechanics layer.
 #pragma once
 
+#include <cmath>
+#include <initializer_list>
+
 #include "mechanics/instant.h"
 
 namespace prehensile {
 
 /// The larger of two violations; not-a-number is the worst (std::max would drop it).
 inline double worse(double a, double b) { return std::isnan(a) || a >= b ? a : b; }
+inline double worst_of(std::initializer_list<double> violations) {
+  double worst = 0.0;
+  for (const double violation : violations) worst = worse(worst, violation);
+  return worst;
+}
+
+inline constexpr double kFails = 1.0;     ///< violation by a claim that is plainly false
+inline constexpr double kClaimed = 1e-9;  ///< tolerance of inequalities in claims
+inline constexpr double kAtRest = 1e-7;   ///< rates below this count as sticking
+
+/// What an answer without inertia claims about rest and motion while the grasp holds
+/// gravity: `size` of its twist, and units of force and rate.
+double motion_claim_violation(const PlanarDrive& drive, const PlanarInstant& answer,
+                              double size, double force, double rate);
+
+/// A label of a pusher point that contradicts the numbers it stands for.
+double mislabelled(const PusherPoint& point, double normal, double opening, double slip);
 
 /// Units in which errors are judged. The length is the lever of the pads; but not less
 /// than a thousandth of the distance to the pusher, where rounding would show.
@@ -39,12 +59,10 @@ double motion_violation(const PlanarGrasp& grasp, const PlanarDrive& drive,
 
 /// 0 if the claim of the status is true, otherwise how badly it fails.
 ///   moves, holds, separated, non-unique forces: the pads hold gravity (quasi-static),
-///   and
-///     the object does or does not move as claimed; the ends of a force interval can
+///     and the object does or does not move as claimed; the ends of a force interval can
 ///     occur
 ///   ambiguous: `other` is another motion, or `evidence` a twist by which gravity gains
-///   at
-///     least as much power as the pads take
+///     at least as much power as the pads take
 ///   dynamic: `evidence` is a twist by which gravity gains more power than the pads take,
 ///     and against which the pusher cannot work: either no force of its friction cones
 ///     does (then nothing is in balance), or the twist parts from the pusher (then the

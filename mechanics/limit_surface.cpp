@@ -1,6 +1,5 @@
 #include "mechanics/limit_surface.h"
 
-#include "mechanics/certificate_evidence.h"
 #include "mechanics/contact_mode.h"
 #include "mechanics/motion_in_mode.h"
 #include "mechanics/push_verdict.h"
@@ -117,72 +116,6 @@ MotionInMode solve_limit_surface_in_mode(const LimitSurface& surface,
   }
   const ScaledPush push = scaled(w_g, drive, Vec2::Zero(), surface.c, surface.F);
   return motion_in_mode(UnitSphere{}, push, mode, nullptr);
-}
-
-namespace {
-
-/// The pusher's own law at one point, from the answer's forces and rates: how far
-/// 0 <= normal force _|_ gap rate >= 0 and Coulomb's law are from holding.
-double contact_violation(const PusherPoint& point, double mu, const Vec2& rate, double F,
-                         double v0) {
-  const double normal = point.normal_force / F;
-  const double tangential = point.tangential_force / F;
-  const double opening = rate.x() / v0;
-  const double slip = rate.y() / v0;
-  const double unilateral = std::abs(std::min(normal, opening));
-  const double cone = std::abs(tangential) - mu * normal;
-  // Energy form of Coulomb's law: friction takes the greatest power that the cone allows.
-  const double power = tangential * slip + mu * normal * std::abs(slip);
-  const double kinematics = std::max(std::abs(point.normal_rate - rate.x()),
-                                     std::abs(point.slip_rate - rate.y())) /
-                            v0;
-  return worse(worse(unilateral, cone), worse(std::abs(power), kinematics));
-}
-
-}  // namespace
-
-double limit_surface_residual(const LimitSurface& surface, const PlanarWrench& w_g,
-                              const PlanarDrive& drive,
-                              const PlanarInstant& answer) noexcept {
-  if (!has_motion(answer.status)) {
-    // A fall: gravity gains more power than friction can take, and the pusher is not
-    // pressed.
-    if (answer.status != InstantStatus::kDynamic) return kNan;
-    const PlanarTwist& v = answer.evidence;
-    const double friction_power = -surface.friction(v).dot(v);
-    double violation = std::max(0.0, 1.0 - w_g.dot(v) / friction_power);
-    for (int i = 0; i < drive.count; ++i) {
-      const Vec2 rate = point_velocity(v, drive.p_HC[i]);
-      const double reach = std::max(surface.c, drive.p_HC[i].norm());
-      const double speed = v.head<2>().norm() + reach * std::abs(v[2]);
-      violation = worse(violation, -drive.n_H.dot(rate) / speed);
-    }
-    return violation;
-  }
-  const double unit = std::max(1.0, surface.load(w_g));  // of forces, over F
-  double v0 = 0.0;
-  double worst = 0.0;
-  PlanarWrench push = PlanarWrench::Zero();
-  for (int i = 0; i < drive.count; ++i) {
-    v0 = std::max(v0, point_velocity(drive.V_HP, drive.p_HC[i]).norm());
-  }
-  for (int i = 0; i < drive.count; ++i) {
-    const PusherPoint& point = answer.pusher[i];
-    const Vec2 relative = point_velocity(answer.V_HO - drive.V_HP, drive.p_HC[i]);
-    const Vec2 rate(drive.n_H.dot(relative), drive.t_H().dot(relative));
-    worst = worse(worst, contact_violation(point, drive.mu, rate, unit * surface.F, v0));
-    const Vec2 f = point.normal_force * drive.n_H + point.tangential_force * drive.t_H();
-    push += wrench_of(drive.p_HC[i], f);
-  }
-  worst = worse(worst, surface.load(push - answer.w_push) / unit);
-  worst = worse(worst,
-                std::abs(answer.push_force - push.head<2>().norm()) / (unit * surface.F));
-  const Vec3 scaled_twist(answer.V_HO[0], answer.V_HO[1], surface.c * answer.V_HO[2]);
-  if (scaled_twist.norm() <= 1e-14 * v0) {
-    return worse(worst, surface.load(w_g + push) - 1.0);
-  }
-  const PlanarWrench imbalance = w_g + push + surface.friction(answer.V_HO);
-  return worse(worst, surface.load(imbalance) / unit);
 }
 
 }  // namespace prehensile

@@ -7,7 +7,6 @@
 namespace prehensile {
 namespace {
 
-constexpr double kFails = 1.0;      ///< the claim is false
 constexpr double kGains = 1e-9;     ///< least gain of power that counts, relative
 constexpr double kFalls = 3.0;      ///< a fall is faster than this many unit rates
 constexpr double kMostYield = 0.5;  ///< at rest is at most this fast, in unit rates

@@ -1,0 +1,54 @@
+/// What a status claims: right answers of every kind pass, whatever is forged from them
+/// does not.
+#include "mechanics/certificate_evidence.h"
+
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "mechanics/certificate.h"
+#include "mechanics/planar_instant.h"
+#include "tests/mechanics/forged_instants.h"
+#include "tests/mechanics/instant_cases.h"
+
+namespace prehensile {
+namespace {
+
+using testing::Forgery;
+using testing::told;
+
+TEST(CertificateEvidence, TheWorstOfAllIsNotANumber) {
+  EXPECT_TRUE(std::isnan(worse(kNan, 1.0)));
+  EXPECT_TRUE(std::isnan(worse(1.0, kNan)));
+  EXPECT_TRUE(std::isnan(worst_of({1.0, kNan, 2.0})));
+  EXPECT_EQ(worst_of({-1.0, -2.0}), 0.0);
+  EXPECT_EQ(worst_of({1.0, 3.0, 2.0}), 3.0);
+}
+
+TEST(CertificateEvidence, RejectsForgeriesOfEveryKindOfAnswer) {
+  std::map<InstantStatus, int> forged;
+  for (int i = 0; i < 2400; ++i) {
+    const int points = i % 3 == 0 ? 1 : i % 3 == 1 ? 4 : 16;
+    const RandomInstant q = testing::instant_of_any_drive(61, i, points);
+    const PlanarInstant right =
+        solve_planar(q.grasp, q.drive, {.probe_multiplicity = i % 5 == 0});
+    const Certificate certificate = certify(q.grasp, q.drive, right);
+    ASSERT_TRUE(certificate.holds())
+        << i << " " << name(right.status) << ": " << told(certificate);
+    const CertificateUnits units = certificate_units(q.grasp, q.drive);
+    for (const Forgery& forgery : testing::forgeries(
+             right, q.grasp.w_g, {units.force, units.length, units.rate})) {
+      EXPECT_FALSE(certify(q.grasp, q.drive, forgery.answer).holds())
+          << i << ", " << name(right.status) << ": " << forgery.what;
+      ++forged[right.status];
+    }
+  }
+  for (const InstantStatus status :
+       {InstantStatus::kMoves, InstantStatus::kHolds, InstantStatus::kSeparated,
+        InstantStatus::kAmbiguous, InstantStatus::kDynamic}) {
+    EXPECT_GT(forged[status], 200) << name(status);
+  }
+}
+
+}  // namespace
+}  // namespace prehensile

@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mechanics/certificate_evidence.h"
 #include "mechanics/cross_section.h"
 
 namespace prehensile {
 namespace {
 
-constexpr double kRejected = 1.0;  // a claim that is plainly not so
+constexpr double kTakes = 1e-6;  // least traction of a wedge, of its greatest force
 
 struct Question {
   double r, V, F;  // units: radius, sheet rate, force
@@ -60,7 +61,7 @@ double imbalance(const Question& q, const CrossSectionForces& f, double load) {
   double wanted = 0.0;
   if (q.jaw1_moves) gripped += l[kJaw1], wanted += load * q.grip;
   if (q.jaw2_moves) gripped += l[kJaw2], wanted += load * q.grip;
-  return std::max({std::abs(z), std::abs(u), std::abs(moment_over_r),
+  return worst_of({std::abs(z), std::abs(u), std::abs(moment_over_r),
                    std::abs(gripped - wanted)}) /
          q.F;
 }
@@ -68,7 +69,7 @@ double imbalance(const Question& q, const CrossSectionForces& f, double load) {
 double cone_violation(const Question& q, const CrossSectionForces& f) {
   double worst = 0.0;
   for (int i = 0; i < 3; ++i)
-    worst = std::max({worst, -f.normal[i] / q.F,
+    worst = worst_of({worst, -f.normal[i] / q.F,
                       (std::abs(f.tangential[i]) - q.mu[i] * f.normal[i]) / q.F});
   return worst;
 }
@@ -83,14 +84,14 @@ double law_violation(const Question& q, const CrossSectionForces& f, const Rates
     const double bound = q.mu[i] * std::max(0.0, l);
     const double l_step = std::max(0.0, l - rates.gap[i] / q.V);
     const double t_step = std::clamp(t - rates.slip[i] / q.V, -bound, bound);
-    worst = std::max({worst, std::abs(l - l_step), std::abs(t - t_step)});
+    worst = worst_of({worst, std::abs(l - l_step), std::abs(t - t_step)});
   }
   return worst;
 }
 
 double solution_violation(const Question& q, const CrossSectionMotion& m,
                           const CrossSectionForces& f) {
-  const double worst = std::max({imbalance(q, f, 1.0), cone_violation(q, f),
+  const double worst = worst_of({imbalance(q, f, 1.0), cone_violation(q, f),
                                  law_violation(q, f, rates_of(q, m, q.sheet_rate))});
   const double sum = m.v_z + m.v_u + m.roll_rate + m.jaw_rate;
   return std::isfinite(sum) ? worst : kNan;
@@ -101,7 +102,7 @@ double mode_violation(const Question& q, const CrossSectionInstant& answer) {
   double worst = 0.0;
   for (int i = 0; i < 3; ++i) {
     const double slip = rates.slip[i] / q.V;
-    double wrong = kRejected;
+    double wrong = kFails;
     switch (answer.mode[i]) {
       case ContactMode::kOpen:
         wrong = std::abs(answer.normal_force[i]) / q.F;
@@ -118,7 +119,7 @@ double mode_violation(const Question& q, const CrossSectionInstant& answer) {
       case ContactMode::kSlip:
         break;
     }
-    worst = std::max(worst, wrong);
+    worst = worse(worst, wrong);
   }
   return worst;
 }
@@ -150,7 +151,7 @@ double range_violation(const Question& q, const CrossSectionInstant& answer) {
   const double l = answer.normal_force[kSheet];
   const double low = answer.sheet_force_low;
   const double high = answer.sheet_force_high;
-  const double outside = std::max({-low, low - l, l - high}) / q.F;
+  const double outside = worst_of({-low, low - l, l - high}) / q.F;
   if (answer.status != InstantStatus::kNonuniqueForces) return outside;
   const Rates rates = rates_of(q, answer.motion(), q.sheet_rate);
   const bool jaws_stick =
@@ -160,11 +161,11 @@ double range_violation(const Question& q, const CrossSectionInstant& answer) {
   const auto beyond = [&](double end, double sign) {
     return jaw_slack(q, rates, end + sign * 1e-6 * (q.F + end));
   };
-  double worst = std::max(outside, -jaw_slack(q, rates, low));
-  if (low > 1e-5 * q.F && beyond(low, -1.0) > 0.0) worst = kRejected;
+  double worst = worse(outside, -jaw_slack(q, rates, low));
+  if (low > 1e-5 * q.F && beyond(low, -1.0) > 0.0) worst = worse(worst, kFails);
   const double farthest = std::isfinite(high) ? high : 1e6 * q.F;
-  worst = std::max(worst, -jaw_slack(q, rates, farthest));
-  if (std::isfinite(high) && beyond(high, 1.0) > 0.0) worst = kRejected;
+  worst = worse(worst, -jaw_slack(q, rates, farthest));
+  if (std::isfinite(high) && beyond(high, 1.0) > 0.0) worst = worse(worst, kFails);
   return worst;
 }
 
@@ -175,7 +176,7 @@ double push_force_violation(const Question& q, const CrossSectionInstant& answer
 }
 
 double largest_rate(const Question& q, const CrossSectionMotion& m) {
-  return std::max({std::abs(m.v_z), std::abs(m.v_u), std::abs(m.roll_rate) * q.r,
+  return worst_of({std::abs(m.v_z), std::abs(m.v_u), std::abs(m.roll_rate) * q.r,
                    std::abs(m.jaw_rate)}) /
          q.V;
 }
@@ -183,15 +184,15 @@ double largest_rate(const Question& q, const CrossSectionMotion& m) {
 double claim_violation(const Question& q, const CrossSectionInstant& answer) {
   const CrossSectionMotion& other = answer.other;
   if (answer.status == InstantStatus::kHolds)
-    return std::max({std::abs(answer.v_z), std::abs(answer.v_u),
+    return worst_of({std::abs(answer.v_z), std::abs(answer.v_u),
                      std::abs(answer.roll_rate) * q.r}) /
            q.V;
   if (answer.status != InstantStatus::kAmbiguous) return 0.0;
   const CrossSectionMotion gap{answer.v_z - other.v_z, answer.v_u - other.v_u,
                                answer.roll_rate - other.roll_rate,
                                answer.jaw_rate - other.jaw_rate};
-  const double same = largest_rate(q, gap) > 1e-9 ? 0.0 : kRejected;
-  return std::max(same, solution_violation(q, other, answer.other_forces));
+  const double same = largest_rate(q, gap) > 1e-9 ? 0.0 : kFails;
+  return worse(same, solution_violation(q, other, answer.other_forces));
 }
 
 // The jaws oppose the motion with no force that they can exert, the gap to the sheet
@@ -201,17 +202,22 @@ double dynamic_violation(const Question& q, const CrossSectionMotion& fall) {
   const double size = largest_rate(q, fall);
   double worst = 0.0;
   for (const int jaw : {kJaw1, kJaw2})
-    worst =
-        std::max(worst, (q.mu[jaw] * std::abs(rates.slip[jaw]) - rates.gap[jaw]) / q.V);
+    worst = worse(worst, (q.mu[jaw] * std::abs(rates.slip[jaw]) - rates.gap[jaw]) / q.V);
   const int driven = (q.jaw1_moves ? 1 : 0) + (q.jaw2_moves ? 1 : 0);
   const double power = -q.weight * fall.v_u + driven * q.grip * fall.jaw_rate;
-  return power > 0.0 && rates.gap[kSheet] > 0.0 ? worst / size : kRejected;
+  return power > 0.0 && rates.gap[kSheet] > 0.0 ? worst / size : kFails;
 }
 
+// Relative to the wedge's own greatest force: in units of the grip a tiny one would
+// always balance.
 double jam_violation(const Question& q, const CrossSectionForces& wedge) {
-  const double power = q.sheet_rate * wedge.tangential[kSheet];
-  return power > 0.0 ? std::max(imbalance(q, wedge, 0.0), cone_violation(q, wedge))
-                     : kRejected;
+  double largest = 0.0;
+  for (int i = 0; i < 3; ++i)
+    largest =
+        worst_of({largest, std::abs(wedge.normal[i]), std::abs(wedge.tangential[i])});
+  const double taken = wedge.tangential[kSheet] * std::copysign(1.0, q.sheet_rate);
+  if (!(taken > kTakes * largest)) return kFails;
+  return worse(imbalance(q, wedge, 0.0), cone_violation(q, wedge)) * (q.F / largest);
 }
 
 }  // namespace
@@ -236,14 +242,9 @@ double cross_section_residual(const CrossSectionModel& model,
     case InstantStatus::kBadInput:
       return kNan;
   }
-  const std::array<double, 5> checks = {
-      solution_violation(q, answer.motion(), answer.forces()), mode_violation(q, answer),
-      range_violation(q, answer), push_force_violation(q, answer),
-      claim_violation(q, answer)};
-  double worst = 0.0;
-  for (const double check : checks)
-    worst = check > worst || std::isnan(check) ? check : worst;
-  return worst;
+  return worst_of({solution_violation(q, answer.motion(), answer.forces()),
+                   mode_violation(q, answer), range_violation(q, answer),
+                   push_force_violation(q, answer), claim_violation(q, answer)});
 }
 
 }  // namespace prehensile

@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mechanics/certificate_evidence.h"
 #include "mechanics/prism_section.h"
 
 namespace prehensile {
 namespace {
 
-constexpr double kRejected = 1.0;   // a claim that is plainly not so
 constexpr double kTouching = 1e-8;  // of the size
+constexpr double kTakes = 1e-6;     // least traction of a wedge, of its greatest force
 
 // A place where object and contact touch, with the normal that a force there must have.
 struct Place {
@@ -104,7 +105,7 @@ Vec2 relative_rate(const Question& q, int contact, const CrossSectionMotion& m,
 // force there can have.
 double misplacement(const Question& q, int contact, const SectionForces& f) {
   const Places& places = q.touching[contact];
-  double nearest = kRejected;
+  double nearest = kFails;
   for (int i = 0; i < places.count; ++i) {
     if ((places.place[i].n - f.direction[contact]).norm() > 1e-9) continue;
     for (int j = i; j < places.count; ++j) {
@@ -126,7 +127,7 @@ double imbalance(const Question& q, const SectionForces& f, double load) {
   double gripped = 0.0;
   double wanted = 0.0;
   for (int i = 0; i < 3; ++i) {
-    if (f.normal[i] != 0.0 && misplacement(q, i, f) > 1e-6) return kRejected;
+    if (f.normal[i] != 0.0 && misplacement(q, i, f) > 1e-6) return kFails;
     const Vec2& n = f.direction[i];
     const Vec2 on_object = f.normal[i] * n + f.tangential[i] * tangent_at(i, n);
     force += on_object;
@@ -134,14 +135,14 @@ double imbalance(const Question& q, const SectionForces& f, double load) {
     gripped += q.rate[i].dot(on_object);
     if (i != kSheet) wanted += load * q.grip.grip_force * std::abs(q.rate[i].x());
   }
-  return std::max({force.norm(), std::abs(moment) / q.size, std::abs(gripped - wanted)}) /
+  return worst_of({force.norm(), std::abs(moment) / q.size, std::abs(gripped - wanted)}) /
          q.F;
 }
 
 double cone_violation(const Question& q, const SectionForces& f) {
   double worst = 0.0;
   for (int i = 0; i < 3; ++i)
-    worst = std::max({worst, -f.normal[i] / q.F,
+    worst = worst_of({worst, -f.normal[i] / q.F,
                       (std::abs(f.tangential[i]) - q.mu[i] * f.normal[i]) / q.F});
   return worst;
 }
@@ -169,7 +170,7 @@ double law_violation(const Question& q, const CrossSectionMotion& m,
   for (int i = 0; i < 3; ++i) {
     const Places& places = q.touching[i];
     for (int k = 0; k < places.count; ++k)
-      worst = std::max(worst, closing(q, i, m, places.place[k].p));
+      worst = worse(worst, closing(q, i, m, places.place[k].p));
     const double l = f.normal[i] / q.F;
     const double t = f.tangential[i] / q.F;
     if (l == 0.0 && t == 0.0) continue;
@@ -178,7 +179,7 @@ double law_violation(const Question& q, const CrossSectionMotion& m,
     const double bound = q.mu[i] * std::max(0.0, l);
     const double l_step = std::max(0.0, l - n.dot(rate));
     const double t_step = std::clamp(t - tangent_at(i, n).dot(rate), -bound, bound);
-    worst = std::max({worst, std::abs(l - l_step), std::abs(t - t_step)});
+    worst = worst_of({worst, std::abs(l - l_step), std::abs(t - t_step)});
   }
   return worst;
 }
@@ -187,7 +188,7 @@ double solution_violation(const Question& q, const CrossSectionMotion& m,
                           const SectionForces& f) {
   const double sum = m.v_z + m.v_u + m.roll_rate + m.jaw_rate;
   if (!std::isfinite(sum)) return kNan;
-  return std::max({imbalance(q, f, 1.0), cone_violation(q, f), law_violation(q, m, f)});
+  return worst_of({imbalance(q, f, 1.0), cone_violation(q, f), law_violation(q, m, f)});
 }
 
 double mode_violation(const Question& q, const PrismInstant& answer) {
@@ -203,30 +204,30 @@ double mode_violation(const Question& q, const PrismInstant& answer) {
       gap = place.n.dot(rate);
       slip = tangent_at(i, place.n).dot(rate) / q.V;
     }
-    double wrong = kRejected;
+    double wrong = kFails;
     switch (answer.mode[i]) {
       case ContactMode::kOpen:
         wrong = std::abs(answer.forces.normal[i]) / q.F;
         break;
       case ContactMode::kStick:
-        wrong = std::max(gap / q.V, std::abs(slip));
+        wrong = worse(gap / q.V, std::abs(slip));
         break;
       case ContactMode::kSlipPlus:
-        wrong = std::max(gap / q.V, -slip);
+        wrong = worse(gap / q.V, -slip);
         break;
       case ContactMode::kSlipMinus:
-        wrong = std::max(gap / q.V, slip);
+        wrong = worse(gap / q.V, slip);
         break;
       case ContactMode::kSlip:
         break;
     }
-    worst = std::max(worst, wrong);
+    worst = worse(worst, wrong);
   }
   return worst;
 }
 
 double largest_rate(const Question& q, const CrossSectionMotion& m) {
-  return std::max({std::abs(m.v_z), std::abs(m.v_u), std::abs(m.roll_rate) * q.size,
+  return worst_of({std::abs(m.v_z), std::abs(m.v_u), std::abs(m.roll_rate) * q.size,
                    std::abs(m.jaw_rate)}) /
          q.V;
 }
@@ -239,8 +240,8 @@ double claim_violation(const Question& q, const PrismInstant& answer) {
   const CrossSectionMotion gap{m.v_z - other.v_z, m.v_u - other.v_u,
                                m.roll_rate - other.roll_rate,
                                m.jaw_rate - other.jaw_rate};
-  const double same = largest_rate(q, gap) > 1e-9 ? 0.0 : kRejected;
-  return std::max(same, solution_violation(q, other, answer.other_forces));
+  const double same = largest_rate(q, gap) > 1e-9 ? 0.0 : kFails;
+  return worse(same, solution_violation(q, other, answer.other_forces));
 }
 
 // No force that any contact can exert opposes the motion, and gravity and grip gain
@@ -253,19 +254,25 @@ double dynamic_violation(const Question& q, const CrossSectionMotion& fall) {
       const Place& place = q.touching[i].place[k];
       const Vec2 rate = relative_rate(q, i, fall, place.p, 0.0) / q.V;
       const double slip = tangent_at(i, place.n).dot(rate);
-      worst = std::max(worst, q.mu[i] * std::abs(slip) - place.n.dot(rate));
+      worst = worse(worst, q.mu[i] * std::abs(slip) - place.n.dot(rate));
     }
   }
   double power = -q.drive.weight * (fall.v_u + fall.roll_rate * q.com.x());
   for (const int jaw : {kJaw1, kJaw2})
     power += q.grip.grip_force * std::abs(q.rate[jaw].x()) * fall.jaw_rate;
-  return power > 0.0 ? worst / size : kRejected;
+  return power > 0.0 ? worst / size : kFails;
 }
 
+// Relative to the wedge's own greatest force: in units of the grip a tiny one would
+// always balance.
 double jam_violation(const Question& q, const SectionForces& wedge) {
-  const double power = q.drive.sheet_rate * wedge.tangential[kSheet];
-  return power > 0.0 ? std::max(imbalance(q, wedge, 0.0), cone_violation(q, wedge))
-                     : kRejected;
+  double largest = 0.0;
+  for (int i = 0; i < 3; ++i)
+    largest =
+        worst_of({largest, std::abs(wedge.normal[i]), std::abs(wedge.tangential[i])});
+  const double taken = wedge.tangential[kSheet] * std::copysign(1.0, q.drive.sheet_rate);
+  if (!(taken > kTakes * largest)) return kFails;
+  return worse(imbalance(q, wedge, 0.0), cone_violation(q, wedge)) * (q.F / largest);
 }
 
 }  // namespace
@@ -292,17 +299,11 @@ double prism_residual(const SectionPolygon& polygon, double roll, const PadReach
   }
   const double force =
       std::hypot(answer.forces.normal[kSheet], answer.forces.tangential[kSheet]);
-  const std::array<double, 6> checks = {
-      solution_violation(q, answer.motion, answer.forces),
-      solution_violation(q, answer.motion, answer.least),
-      solution_violation(q, answer.motion, answer.greatest),
-      mode_violation(q, answer),
-      std::abs(force - answer.push_force) / q.F,
-      claim_violation(q, answer)};
-  double worst = 0.0;
-  for (const double check : checks)
-    worst = check > worst || std::isnan(check) ? check : worst;
-  return worst;
+  return worst_of({solution_violation(q, answer.motion, answer.forces),
+                   solution_violation(q, answer.motion, answer.least),
+                   solution_violation(q, answer.motion, answer.greatest),
+                   mode_violation(q, answer), std::abs(force - answer.push_force) / q.F,
+                   claim_violation(q, answer)});
 }
 
 }  // namespace prehensile

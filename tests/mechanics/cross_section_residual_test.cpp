@@ -131,6 +131,21 @@ TEST(CrossSection, ResidualRejectsMutatedAnswers) {
         mutate([&](CrossSectionInstant& w) { w.normal_force[i] += sign * F; });
         mutate([&](CrossSectionInstant& w) { w.tangential_force[i] += sign * F; });
       }
+      for (int i = 0; i < 3; ++i) {
+        mutate([&](CrossSectionInstant& w) { w.normal_force[i] = kNan; });
+        mutate([&](CrossSectionInstant& w) { w.tangential_force[i] = kNan; });
+      }
+      for (double CrossSectionInstant::*number :
+           {&CrossSectionInstant::v_z, &CrossSectionInstant::v_u,
+            &CrossSectionInstant::jaw_rate, &CrossSectionInstant::push_force,
+            &CrossSectionInstant::sheet_force_low,
+            &CrossSectionInstant::sheet_force_high}) {
+        mutate([&](CrossSectionInstant& w) { w.*number = kNan; });
+      }
+      mutate([&](CrossSectionInstant& w) {  // A force so small that it balances anyhow.
+        w.status = InstantStatus::kJammed;
+        w.evidence_forces = {{0.0, 0.0, 1e-12 * F}, {0.0, 0.0, sign * 1e-10 * F}};
+      });
       mutate([&](CrossSectionInstant& w) { w.push_force += sign * F; });
       mutate([&](CrossSectionInstant& w) {
         w.sheet_force_high = w.normal_force[kSheet] - 1e-3 * F;
@@ -157,6 +172,11 @@ TEST(CrossSection, ResidualRejectsMutatedAnswers) {
       mutate([&](CrossSectionInstant& w) { w.other_forces.normal[kJaw1] += sign * F; });
     }
     if (right.status == InstantStatus::kDynamic) {
+      for (double CrossSectionMotion::*rate :
+           {&CrossSectionMotion::v_z, &CrossSectionMotion::v_u,
+            &CrossSectionMotion::roll_rate, &CrossSectionMotion::jaw_rate}) {
+        mutate([&](CrossSectionInstant& w) { w.evidence.*rate = kNan; });
+      }
       mutate([&](CrossSectionInstant& w) {
         for (double* rate : {&w.evidence.v_z, &w.evidence.v_u, &w.evidence.roll_rate,
                              &w.evidence.jaw_rate})
@@ -165,6 +185,10 @@ TEST(CrossSection, ResidualRejectsMutatedAnswers) {
       mutate([&](CrossSectionInstant& w) { w.status = InstantStatus::kJammed; });
     }
     if (right.status == InstantStatus::kJammed) {
+      for (int i = 0; i < 3; ++i) {
+        mutate([&](CrossSectionInstant& w) { w.evidence_forces.normal[i] = kNan; });
+        mutate([&](CrossSectionInstant& w) { w.evidence_forces.tangential[i] = kNan; });
+      }
       mutate(
           [&](CrossSectionInstant& w) { w.evidence_forces.tangential[kSheet] *= -1.0; });
       mutate([&](CrossSectionInstant& w) { w.evidence_forces.normal[kSheet] += F; });

@@ -174,6 +174,58 @@ TEST(PrismSection, AnAnswerThatIsAlteredFails) {
   EXPECT_GT(altered, 500);
 }
 
+// Numbers that are none, and a wedge so small that it balances in units of the grip.
+TEST(PrismSection, AnAnswerThatIsForgedFails) {
+  Random random(38);
+  std::map<InstantStatus, int> forged;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const AnyPrism prism(random);
+    if (!prism.contacts().held()) continue;
+    const PrismInstant now = prism.solve();
+    if (now.status == InstantStatus::kOutOfIterations) continue;
+    const auto forge = [&](const char* what, auto&& alter) {
+      PrismInstant other = now;
+      alter(other);
+      EXPECT_FALSE(prism.residual(other) <= 1e-6)
+          << trial << ", " << name(now.status) << ": " << what;
+      ++forged[now.status];
+    };
+    const auto forge_motion = [&](CrossSectionMotion PrismInstant::*motion) {
+      for (double CrossSectionMotion::*rate :
+           {&CrossSectionMotion::v_z, &CrossSectionMotion::v_u,
+            &CrossSectionMotion::roll_rate, &CrossSectionMotion::jaw_rate}) {
+        forge("a rate NaN", [&](PrismInstant& a) { a.*motion.*rate = kNan; });
+      }
+    };
+    const auto forge_forces = [&](SectionForces PrismInstant::*forces) {
+      for (int i = 0; i < 3; ++i) {
+        forge("a load NaN", [&](PrismInstant& a) { (a.*forces).normal[i] = kNan; });
+        forge("friction NaN", [&](PrismInstant& a) { (a.*forces).tangential[i] = kNan; });
+      }
+    };
+    if (now.status == InstantStatus::kDynamic) {
+      forge_motion(&PrismInstant::evidence);
+    } else if (now.status == InstantStatus::kJammed) {
+      forge_forces(&PrismInstant::evidence_forces);
+    } else {
+      forge_motion(&PrismInstant::motion);
+      for (const auto forces :
+           {&PrismInstant::forces, &PrismInstant::least, &PrismInstant::greatest}) {
+        forge_forces(forces);
+      }
+      forge("push force NaN", [](PrismInstant& a) { a.push_force = kNan; });
+      forge("a tiny wedge", [&](PrismInstant& a) {
+        a.status = InstantStatus::kJammed;
+        a.evidence_forces = now.forces;
+        a.evidence_forces.normal = {0.0, 0.0, 1e-12 * prism.drive.weight};
+        a.evidence_forces.tangential = {
+            0.0, 0.0, 1e-13 * std::copysign(prism.drive.weight, prism.drive.sheet_rate)};
+      });
+    }
+  }
+  EXPECT_GE(forged.size(), 5u);
+}
+
 // The same section seen from behind: z turned round, jaws exchanged.
 TEST(PrismSection, TheMirrorImageMovesAsTheMirrorImage) {
   Random random(34);

@@ -33,8 +33,9 @@ struct LimitSurface {
 PlanarInstant solve_limit_surface(const LimitSurface& surface, const PlanarWrench& w_g,
                                   const PlanarDrive& drive) noexcept;
 
-/// The certificate of such an answer, derived independently of its solver: forces in
-/// units of the surface or of gravity, whichever is larger.
+/// The certificate of such an answer and of what its status claims, derived independently
+/// of its solver: forces in units of the surface or of gravity, whichever is larger. NaN
+/// for an answer without claim, or without sense.
 double limit_surface_residual(const LimitSurface& surface, const PlanarWrench& w_g,
                               const PlanarDrive& drive,
                               const PlanarInstant& answer) noexcept;

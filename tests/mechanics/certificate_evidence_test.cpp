@@ -50,5 +50,22 @@ TEST(CertificateEvidence, RejectsForgeriesOfEveryKindOfAnswer) {
   }
 }
 
+/// Far from the origin, whether a turning pusher advances is a question of rounding,
+/// which solver and certificate may answer differently.
+TEST(CertificateEvidence, AcceptsMotionsThatAreRounding) {
+  const PlanarGrasp grasp = testing::disc_grasp(16, 0.01, 16.0);
+  int moves = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec2 p(-1.0, 0.3 + 1e-4 * i);
+    const double turn = 49.0;
+    PlanarDrive drive = testing::point_drive(p, {1.0, 0.0}, 0.9, {0.0, 0.0});
+    drive.V_HP = {turn * p.y(), 0.01 - turn * p.x(), turn};
+    const PlanarInstant answer = solve_planar(grasp, drive);
+    EXPECT_TRUE(certify(grasp, drive, answer).holds()) << i << name(answer.status);
+    moves += answer.status == InstantStatus::kMoves ? 1 : 0;
+  }
+  EXPECT_GT(moves, 100);
+}
+
 }  // namespace
 }  // namespace prehensile

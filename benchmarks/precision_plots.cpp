@@ -99,12 +99,10 @@ std::string work_precision_svg(const std::vector<PrecisionPoint>& points,
       labels.push_back(label);
     }
   }
-  int colour = 0;
   for (const std::string& label : labels) {
     plot::Line p95{.label = label, .marks = true};
-    plot::Line median{.dash = plot::Dash::kDotted, .marks = true};
-    p95.colour = median.colour =
-        static_cast<plot::Colour>(1 + colour++ % static_cast<int>(plot::Colour::kGrey));
+    plot::Line median{
+        .colour = plot::Colour::kSame, .dash = plot::Dash::kDotted, .marks = true};
     for (const PrecisionPoint& point : points) {
       if (point.example.set != set || line_of(point.example) != label) continue;
       if (point.solved == 0) continue;

@@ -43,7 +43,7 @@ class Layout {
         has_map_(chart.map && is_drawable(*chart.map)) {
     int used = 0;
     for (const Series& series : chart.series) {
-      colours_.push_back(colour_of(series, used));
+      looks_.push_back(look_of(series, used));
     }
     if (has_map_) map_colours_ = colour_range(*chart.map);
     arrange();
@@ -60,7 +60,7 @@ class Layout {
     drawing_.raw("<g clip-path=\"url(#" + id("clip") + ")\">\n");
     if (has_map_) draw(drawing_, frame_, *chart_.map, map_colours_, id("hatch"));
     for (std::size_t i = 0; i < chart_.series.size(); ++i) {
-      draw(drawing_, frame_, chart_.series[i], colours_[i]);
+      draw(drawing_, frame_, chart_.series[i], looks_[i]);
     }
     drawing_.raw("</g>\n");
     draw_axes();
@@ -77,7 +77,7 @@ class Layout {
   struct Key {
     std::string label;
     const Series* series;  ///< null: the hatching of a map
-    Colour colour;
+    Look look;
     double x = 0.0;
     int row = 0;
   };
@@ -141,10 +141,10 @@ class Layout {
   void list_keys() {
     for (std::size_t i = 0; i < chart_.series.size(); ++i) {
       const std::string& label = label_of(chart_.series[i]);
-      if (!label.empty()) keys_.push_back({label, &chart_.series[i], colours_[i]});
+      if (!label.empty()) keys_.push_back({label, &chart_.series[i], looks_[i]});
     }
     if (has_map_ && !chart_.map->blank.empty() && has_blank(*chart_.map)) {
-      keys_.push_back({chart_.map->blank, nullptr, Colour::kGrey});
+      keys_.push_back({chart_.map->blank, nullptr, {Colour::kGrey}});
     }
     double x = kMargin;
     int row = 0;
@@ -174,7 +174,7 @@ class Layout {
     for (const Key& key : keys_) {
       const double middle = legend_top_ + (key.row + 0.5) * kLegendRow;
       if (key.series) {
-        draw_key(drawing_, key.x, middle, kKeyWidth, 10.0, *key.series, key.colour);
+        draw_key(drawing_, key.x, middle, kKeyWidth, 10.0, *key.series, key.look);
       } else {
         drawing_.rectangle(key.x, middle - 5.0, kKeyWidth, 10.0,
                            "url(#" + id("hatch") + ')', kGrid);
@@ -259,7 +259,7 @@ class Layout {
   double height_;
   bool has_map_;
   bool is_empty_ = false;
-  std::vector<Colour> colours_;
+  std::vector<Look> looks_;
   Range map_colours_;
   std::vector<Key> keys_;
   int rows_ = 0;

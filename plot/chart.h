@@ -35,9 +35,11 @@ struct AxisOptions {
 };
 
 /// One of eight colours that colour-blind readers can tell apart; kNext: the next one
-/// that the chart has not used.
+/// that the chart has not used, and where all were used, the first again with other marks
+/// and dashes; kSame: what kNext gave last, for series that belong together.
 enum class Colour {
   kNext,
+  kSame,
   kBlue,
   kOrange,
   kGreen,

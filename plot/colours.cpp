@@ -27,6 +27,7 @@ std::string hex_of(const Rgb& rgb) {
 std::string hex(Colour colour) {
   switch (colour) {
     case Colour::kNext:
+    case Colour::kSame:
     case Colour::kBlue:
       return kBlue;
     case Colour::kOrange:
@@ -50,7 +51,7 @@ std::string hex(Colour colour) {
 }
 
 Colour nth_colour(int n) {
-  static constexpr std::array<Colour, 7> kOrder = {
+  static constexpr std::array<Colour, kColourCount> kOrder = {
       Colour::kBlue, Colour::kRed,    Colour::kGreen, Colour::kPurple,
       Colour::kSky,  Colour::kOrange, Colour::kYellow};
   return kOrder[static_cast<std::size_t>(n) % kOrder.size()];

@@ -8,11 +8,13 @@
 
 namespace prehensile::plot {
 
-/// "#rrggbb" of a colour that is not kNext. Source: the palette of Okabe and Ito, its
-/// yellow darkened for lines on white.
+/// "#rrggbb" of a colour that is not kNext or kSame. Source: the palette of Okabe and
+/// Ito, its yellow darkened for lines on white.
 std::string hex(Colour colour);
 
-/// The n-th colour of series that do not choose theirs, n >= 0.
+/// How many colours there are for series that do not choose theirs, and the n-th, n >= 0:
+/// they begin anew where they end.
+inline constexpr int kColourCount = 7;
 Colour nth_colour(int n);
 
 /// What is no data: drawn on paper, in ink (svg.h) and its paler kinds.

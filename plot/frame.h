@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "plot/chart.h"
 #include "plot/svg.h"
 #include "plot/ticks.h"
 
@@ -25,15 +26,21 @@ struct Frame {
 /// Label of a series, empty where it wants no place in the legend.
 const std::string& label_of(const Series& series);
 
+/// What tells a series from the others: its own, or chosen for it.
+struct Look {
+  Colour colour = Colour::kBlue;
+  int round = 0;  ///< how many times all colours were used before
+};
+
+/// Look of a series; `used` counts the colours that were chosen.
+Look look_of(const Series& series, int& used);
+
 /// The series inside the frame.
-void draw(Drawing& drawing, const Frame& frame, const Series& series, Colour colour);
+void draw(Drawing& drawing, const Frame& frame, const Series& series, const Look& look);
 
 /// The series' sample in a legend, in a box of this size around the middle.
 void draw_key(Drawing& drawing, double x, double y, double width, double height,
-              const Series& series, Colour colour);
-
-/// Colour of a series: its own, or the next unused, counted in `used`.
-Colour colour_of(const Series& series, int& used);
+              const Series& series, const Look& look);
 
 /// Corners of everything that the series draws.
 void add_extent(const Series& series, RangeBuilder& x, RangeBuilder& y);

@@ -1,5 +1,6 @@
 /// How each kind of series looks, in the chart and in the legend.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "plot/colours.h"
@@ -27,6 +28,30 @@ std::string dashes(Dash dash) {
       return "1.5 3.5";
   }
   return "";
+}
+
+/// Filled marks, one for each round of colours.
+Mark nth_mark(int round) {
+  static constexpr std::array kOrder = {Mark::kCircle, Mark::kSquare, Mark::kDiamond,
+                                        Mark::kTriangle};
+  return kOrder[static_cast<std::size_t>(round) % kOrder.size()];
+}
+
+Mark mark_of(const Scatter& scatter, const Look& look) {
+  return scatter.mark == Mark::kCircle ? nth_mark(look.round) : scatter.mark;
+}
+
+/// Series without marks differ by their dashes from those of the round before.
+Dash nth_dash(Dash own, int round) {
+  return static_cast<Dash>((static_cast<int>(own) + round) % 3);
+}
+
+Dash dash_of(const Line& line, const Look& look) {
+  return line.marks ? line.dash : nth_dash(line.dash, look.round);
+}
+
+Dash dash_of(const Steps& steps, const Look& look) {
+  return nth_dash(steps.dash, look.round);
 }
 
 std::string at(double x, double y) { return px(x) + ' ' + px(y); }
@@ -152,11 +177,14 @@ const std::string& label_of(const Series& series) {
       series);
 }
 
-Colour colour_of(const Series& series, int& used) {
+Look look_of(const Series& series, int& used) {
   const Colour own = std::visit(Overloaded{[](const Note&) { return Colour::kBlack; },
                                            [](const auto& s) { return s.colour; }},
                                 series);
-  return own == Colour::kNext ? nth_colour(used++) : own;
+  if (own != Colour::kNext && own != Colour::kSame) return {own};
+  if (own == Colour::kNext) ++used;
+  const int n = std::max(0, used - 1);
+  return {nth_colour(n), n / kColourCount};
 }
 
 void add_extent(const Series& series, RangeBuilder& x, RangeBuilder& y) {
@@ -182,31 +210,31 @@ void add_extent(const Series& series, RangeBuilder& x, RangeBuilder& y) {
              series);
 }
 
-void draw(Drawing& drawing, const Frame& frame, const Series& series, Colour colour) {
-  const std::string paint = hex(colour);
+void draw(Drawing& drawing, const Frame& frame, const Series& series, const Look& look) {
+  const std::string paint = hex(look.colour);
   std::visit(
       Overloaded{
           [&](const Line& s) {
-            draw_path(drawing, polyline(frame, s.points), paint, s.dash);
+            draw_path(drawing, polyline(frame, s.points), paint, dash_of(s, look));
             if (!s.marks) return;
             for (const Point& p : s.points) {
               if (!frame.drawable(p)) continue;
-              draw_mark(drawing, Mark::kCircle, frame.px_x(p.x), frame.px_y(p.y), 3.0,
-                        paint);
+              draw_mark(drawing, nth_mark(look.round), frame.px_x(p.x), frame.px_y(p.y),
+                        3.0, paint);
             }
           },
           [&](const Steps& s) {
-            draw_path(drawing, staircase(frame, s.points), paint, s.dash);
+            draw_path(drawing, staircase(frame, s.points), paint, dash_of(s, look));
           },
           [&](const Scatter& s) {
             // One path for all marks: a large cloud stays a small file.
             std::string marks;
             for (const Point& p : s.points) {
               if (!frame.drawable(p)) continue;
-              marks +=
-                  mark_path(s.mark, frame.px_x(p.x), frame.px_y(p.y), size_of(s.size));
+              marks += mark_path(mark_of(s, look), frame.px_x(p.x), frame.px_y(p.y),
+                                 size_of(s.size));
             }
-            draw_marks(drawing, s.mark, marks, paint);
+            draw_marks(drawing, mark_of(s, look), marks, paint);
           },
           [&](const Band& s) {
             const std::string outline = band_outline(frame, s.rows);
@@ -248,8 +276,8 @@ void draw(Drawing& drawing, const Frame& frame, const Series& series, Colour col
 }
 
 void draw_key(Drawing& drawing, double x, double y, double width, double height,
-              const Series& series, Colour colour) {
-  const std::string paint = hex(colour);
+              const Series& series, const Look& look) {
+  const std::string paint = hex(look.colour);
   const double middle = x + 0.5 * width;
   const auto stroke = [&](Dash dash) {
     return Drawing::Stroke{.colour = paint, .width = kLineWidth, .dashes = dashes(dash)};
@@ -257,10 +285,15 @@ void draw_key(Drawing& drawing, double x, double y, double width, double height,
   std::visit(
       Overloaded{
           [&](const Line& s) {
-            drawing.line(x, y, x + width, y, stroke(s.dash));
-            if (s.marks) draw_mark(drawing, Mark::kCircle, middle, y, 3.0, paint);
+            drawing.line(x, y, x + width, y, stroke(dash_of(s, look)));
+            if (s.marks) draw_mark(drawing, nth_mark(look.round), middle, y, 3.0, paint);
           },
-          [&](const Scatter& s) { draw_mark(drawing, s.mark, middle, y, 3.5, paint); },
+          [&](const Steps& s) {
+            drawing.line(x, y, x + width, y, stroke(dash_of(s, look)));
+          },
+          [&](const Scatter& s) {
+            draw_mark(drawing, mark_of(s, look), middle, y, 3.5, paint);
+          },
           [&](const Band&) {
             drawing.path('M' + at(x, y - 0.5 * height) + " h" + px(width) + " v" +
                              px(height) + " h" + px(-width) + " Z",
@@ -274,7 +307,7 @@ void draw_key(Drawing& drawing, double x, double y, double width, double height,
           },
           [&](const Arrow&) { draw_arrow(drawing, x, y, x + width, y, paint); },
           [](const Note&) {},
-          [&](const auto& s) { drawing.line(x, y, x + width, y, stroke(s.dash)); }},
+          [&](const Rule& s) { drawing.line(x, y, x + width, y, stroke(s.dash)); }},
       series);
 }
 

@@ -105,8 +105,9 @@ double text_width(std::string_view text, double font_size) {
     if ((static_cast<unsigned char>(c) & 0xc0U) == 0x80U) continue;
     const bool narrow =
         std::string_view("iljtfr.,:;|!'()[] ").find(c) != std::string::npos;
-    const bool wide = (c >= 'A' && c <= 'Z') || c == 'm' || c == 'w' || c == '%';
-    ems += narrow ? 0.33 : wide ? 0.74 : 0.56;
+    const bool wide = std::string_view("mwMW%").find(c) != std::string::npos;
+    const bool capital = c >= 'A' && c <= 'Z';
+    ems += narrow ? 0.36 : wide ? 0.95 : capital ? 0.72 : 0.62;
   }
   return ems * font_size;
 }

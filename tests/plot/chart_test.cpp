@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -63,6 +64,50 @@ TEST(Chart, NamesStandInsteadOfNumbers) {
   EXPECT_GT(height_of("low"), height_of("middle"));
   EXPECT_GT(height_of("middle"), height_of("high"));
   EXPECT_EQ(svg.find("beyond the data"), std::string::npos);
+}
+
+/// Measured by a browser in the widest of the fonts that a viewer may take.
+TEST(Chart, LegendsHaveRoomForTheirText) {
+  for (const auto& [text, ems] :
+       {std::pair{"line 30 mm, disc of radius 10 mm and 9 alike", 22.63},
+        std::pair{"siconos-nsn-fb, R = 0.01", 12.25}, std::pair{"not unique", 5.38}}) {
+    EXPECT_GE(text_width(text, 12.0), 12.0 * ems) << text;
+    EXPECT_LE(text_width(text, 12.0), 12.0 * 1.1 * ems) << text;
+  }
+}
+
+/// Where the colours are used up, marks and dashes tell series apart.
+TEST(Chart, NoTwoOfManySeriesLookAlike) {
+  const std::vector<Point> points = {{0.0, 1.0}, {1.0, 2.0}};
+  const auto looks_of = [&](const Series& series) {
+    Chart chart{.series = std::vector<Series>(3 * kColourCount, series)};
+    const std::string svg = chart.svg();
+    std::map<std::string, int> looks;  // without the places of keys, which are no curves
+    std::size_t at = svg.find("<g clip-path");
+    const std::size_t end = svg.find("</g>", at);
+    for (at = svg.find('<', at + 1); at < end; at = svg.find('<', at + 1)) {
+      ++looks[svg.substr(at, svg.find('>', at) - at)];
+    }
+    return looks;
+  };
+  EXPECT_EQ(looks_of(Line{.points = points}).size(), 3U * kColourCount);
+  EXPECT_EQ(looks_of(Steps{.points = points}).size(), 3U * kColourCount);
+  EXPECT_EQ(looks_of(Scatter{.points = points}).size(), 3U * kColourCount);
+  // The lines of each round look alike, their marks do not.
+  const int marks = 2 * 3 * kColourCount;
+  EXPECT_EQ(looks_of(Line{.points = points, .marks = true}).size(),
+            static_cast<std::size_t>(kColourCount + marks));
+}
+
+TEST(Chart, SeriesThatBelongTogetherShareAColour) {
+  const std::vector<Point> points = {{0.0, 1.0}, {1.0, 2.0}};
+  const Chart chart{
+      .series = {Line{.points = points},
+                 Scatter{.points = points, .colour = Colour::kSame, .mark = Mark::kCross},
+                 Line{.points = points}}};
+  const std::string svg = chart.svg();
+  EXPECT_EQ(count_of(svg, "\"" + hex(nth_colour(0)) + '"'), 2);
+  EXPECT_EQ(count_of(svg, "\"" + hex(nth_colour(1)) + '"'), 1);
 }
 
 /// Every grey of a chart, found in its text, has a rule for dark pages.

@@ -61,7 +61,9 @@ std::string tally(const Sweep& sweep) {
     if (!reason.empty()) out += "  " + status + ": " + reason + '\n';
   }
   if (bracketed > 0) {
-    out += "in brackets: not a unique answer to the whole question; see the status\n";
+    out +=
+        "in brackets: stopped, or not a unique answer to the whole question; see the "
+        "status\n";
   }
   return out;
 }
@@ -98,7 +100,8 @@ std::string table_over_two(const Sweep& sweep, int column) {
          table.str();
 }
 
-/// One curve; what is not a unique answer goes to `others` where it has a value.
+/// One curve; where a push stopped, or an answer is one of several, its value goes to
+/// `others`.
 plot::Line curve(const Sweep& sweep, int line, int column, plot::Scatter& others) {
   plot::Line out;
   for (int i = 0; i < sweep.columns(); ++i) {
@@ -159,10 +162,13 @@ plot::Chart curves_of(const Sweep& sweep, const std::vector<int>& shown) {
   plot::Chart chart;
   chart.x = axis_of(sweep.fields[0]);
   chart.y.label = columns[shown.front()].label;
-  plot::Scatter others{
-      .label = "not unique", .colour = plot::Colour::kGrey, .mark = plot::Mark::kCross};
+  plot::Scatter any_others{.label = "stopped or not unique",
+                           .colour = plot::Colour::kGrey,
+                           .mark = plot::Mark::kCross};
+  bool has_others = false;
   for (const int column : shown) {
     for (int j = 0; j < sweep.lines(); ++j) {
+      plot::Scatter others{.colour = plot::Colour::kSame, .mark = plot::Mark::kCross};
       plot::Line line = curve(sweep, j, column, others);
       if (sweep.fields.size() > 1) {
         line.label = sweep.fields[1].path + ' ' + sweep.fields[1].values[j];
@@ -171,10 +177,12 @@ plot::Chart curves_of(const Sweep& sweep, const std::vector<int>& shown) {
         line.label += line.label.empty() ? "" : ", ";
         line.label += columns[column].label;
       }
+      has_others = has_others || !others.points.empty();
       chart.series.emplace_back(std::move(line));
+      chart.series.emplace_back(std::move(others));
     }
   }
-  if (!others.points.empty()) chart.series.emplace_back(std::move(others));
+  if (has_others) chart.series.emplace_back(std::move(any_others));
   return chart;
 }
 
@@ -183,7 +191,7 @@ plot::Chart map_of(const Sweep& sweep, int column) {
   chart.x = axis_of(sweep.fields[0]);
   chart.y = axis_of(sweep.fields[1]);
   plot::HeatMap map{.label = sweep_columns(sweep.question.of)[column].label,
-                    .blank = "no unique answer"};
+                    .blank = "stopped or no unique answer"};
   // A map ascends along both axes, whatever the order of the sweep.
   const auto ascending = [](const std::vector<double>& numbers) {
     std::map<double, int> order;
@@ -285,7 +293,8 @@ std::string to_svg(const Sweep& sweep, const std::vector<int>& shown,
   chart.subtitle =
       text("%zu rows of query %s", sweep.rows.size(), name_of(sweep.question.of));
   if (unanswered > 0) {
-    chart.subtitle += text(", %d without a unique answer", static_cast<int>(unanswered));
+    chart.subtitle +=
+        text(", %d stopped or without a unique answer", static_cast<int>(unanswered));
   }
   return chart.svg();
 }

@@ -144,6 +144,27 @@ TEST(Sweep, WritesTablesAndPictures) {
   EXPECT_EQ(picture.find("nan"), std::string::npos);
 }
 
+/// A curve that stops at once is seen all the same: its crosses have its colour.
+TEST(Sweep, CrossesShowWhereEachCurveStopped) {
+  const Folder folder;
+  const std::string svg = folder.path("stops.svg").string();
+  const Outcome out = run_program(
+      "query sweep problems/paper/roll_prism.yaml --of push --kind roll --over "
+      "travel_mm=1:5:5 --over start.y=-0.005,-0.011 --show psi --plot " +
+      svg);
+  ASSERT_EQ(out.exit_code, 0) << out.err;
+  const std::string picture = read_text(svg);
+  EXPECT_NE(picture.find(">stopped or not unique</text>"), std::string::npos);
+  EXPECT_NE(picture.find(", 5 stopped or without a unique answer<"), std::string::npos);
+  EXPECT_NE(out.out.find("in brackets: stopped, or "), std::string::npos) << out.out;
+  // Of the first curve nothing but five crosses, in the first colour.
+  const std::size_t cross = picture.find("stroke=\"#0072b2\" stroke-width=\"1.50\"");
+  ASSERT_NE(cross, std::string::npos);
+  const std::size_t path = picture.rfind("<path", cross);
+  const std::string marks = picture.substr(path, cross - path);
+  EXPECT_EQ(std::count(marks.begin(), marks.end(), 'M'), 10);
+}
+
 TEST(Sweep, WordsMayBeSwept) {
   const json rows = rows_of(
       "query sweep problems/paper/roll.yaml --of roll --over "

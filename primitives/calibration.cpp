@@ -15,6 +15,10 @@ using Eigen::VectorXd;
 /// Parameters whose estimates move together more than this can be exchanged.
 constexpr double kConfused = 0.95;
 
+/// So much less of - log L is a better place, and so often a fit begins anew there.
+constexpr double kBetter = 0.1;
+constexpr int kMostRestarts = 3;
+
 class Calibrator {
  public:
   Calibrator(const FitProblem& problem, const CalibrationOptions& options)
@@ -35,9 +39,6 @@ class Calibrator {
       CalibratedParameter& parameter = out_.parameters[static_cast<std::size_t>(j)];
       parameter.value = out_.fit.at[j];
       parameter.told = !held_[static_cast<std::size_t>(j)];
-      if (parameter.told) {
-        sample_profile(problem_, rows_, out_.fit, j, held_, parameter.profile);
-      }
     }
     out_.before = residuals(start_of(problem_), rows_);
     out_.after = residuals(out_.fit.at, rows_);
@@ -74,8 +75,8 @@ class Calibrator {
       }
       if (worst >= 0) note_confusion(spread, worst);
       if (worst < 0) worst = profile_all(spread);
-      if (worst < 0 && !begins_at_better_place()) return;
-      if (worst < 0) continue;
+      if (worst < 0 && (begins_at_better_place() || samples_better_place())) continue;
+      if (worst < 0) return;
       if (is_unset(worst)) {
         out_.parameters[static_cast<std::size_t>(worst)].profile =
             profile(problem_, rows_, out_.fit, worst, held_, spread, fit_options_);
@@ -87,8 +88,6 @@ class Calibrator {
   /// A profile that falls below the fit has found a better place: the next fit begins
   /// there. False if there is none, or it happened too often.
   bool begins_at_better_place() {
-    constexpr double kBetter = 0.1;
-    constexpr int kMostRestarts = 3;
     double least = -kBetter;
     bool found = false;
     for (int j = 0; j < count_; ++j) {
@@ -97,10 +96,31 @@ class Calibrator {
            out_.parameters[static_cast<std::size_t>(j)].profile.points) {
         if (point.rise >= least) continue;
         least = point.rise;
-        start_ = out_.fit.at;
-        start_[j] = point.value;
+        start_ = point.at;
         found = true;
       }
+    }
+    return found && ++restarts_ <= kMostRestarts;
+  }
+
+  /// The same of profiles that are sampled evenly, which look nearer to the fit.
+  bool samples_better_place() {
+    double most = kBetter;
+    bool found = false;
+    for (int j = 0; j < count_; ++j) {
+      if (held_[static_cast<std::size_t>(j)]) continue;
+      Profile& profile = out_.parameters[static_cast<std::size_t>(j)].profile;
+      sample_profile(problem_, rows_, out_.fit, j, held_, profile);
+      const auto by_rise = [](const ProfilePoint& a, const ProfilePoint& b) {
+        return a.rise < b.rise;
+      };
+      const auto least = std::ranges::min_element(profile.points, by_rise);
+      const auto of_fit =
+          std::ranges::find(profile.points, out_.fit.at[j], &ProfilePoint::value);
+      if (of_fit->rise <= most) continue;
+      most = of_fit->rise;
+      start_ = least->at;
+      found = true;
     }
     return found && ++restarts_ <= kMostRestarts;
   }

@@ -92,7 +92,7 @@ class ProfileSide {
                           {.max_iterations = 8, .tolerance = 1e-2, .try_others = false});
     near_ = there.at;
     const double up = there.objective - best_.objective;
-    points.push_back({value, up});
+    points.push_back({value, up, near_});
     return up;
   }
 
@@ -139,7 +139,7 @@ Profile profile(const FitProblem& problem, std::span<const int> rows, const Fit&
   bool& open_high = out.interval.open_high;
   out.interval.low = ProfileSide(problem, rows, best, parameter, held, out.limit)
                          .end(first, p.low, open_low, out.points);
-  out.points.push_back({centre, 0.0});
+  out.points.push_back({centre, 0.0, best.at});
   out.interval.high = ProfileSide(problem, rows, best, parameter, held, out.limit)
                           .end(first, p.high, open_high, out.points);
   sort_points(out);
@@ -153,7 +153,7 @@ void sample_profile(const FitProblem& problem, std::span<const int> rows, const 
   const FitParameter& p = problem.parameters[static_cast<std::size_t>(parameter)];
   const FitInterval& interval = profile.interval;
   const double beyond = kBeyond * interval.half_width();
-  profile.points = {{best.at[parameter], 0.0}};
+  profile.points = {{best.at[parameter], 0.0, best.at}};
   ProfileSide side(problem, rows, best, parameter, held, profile.limit);
   side.sample(std::max(p.low, interval.low - beyond), kPoints, profile.points);
   side.sample(std::min(p.high, interval.high + beyond), kPoints, profile.points);

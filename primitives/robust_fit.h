@@ -72,6 +72,7 @@ struct FitInterval {
 /// reaches `limit` of the profile.
 struct ProfilePoint {
   double value = 0.0, rise = 0.0;
+  Eigen::VectorXd at;  ///< all parameters there
 };
 struct Profile {
   FitInterval interval;

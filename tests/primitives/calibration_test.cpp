@@ -53,6 +53,29 @@ TEST(Calibration, TellsWhatTheDataTell) {
   EXPECT_LT(found.held_out.cwiseAbs().mean(), 0.2 * found.before.cwiseAbs().mean());
 }
 
+/// A model with ripples stops fits in hollows beside the deepest one: where a profile
+/// finds a better place, the fit goes there.
+TEST(Calibration, NoProfileFallsFarBelowTheFit) {
+  const auto rippled = [](const Eigen::VectorXd& p, double x) {
+    return p[0] + p[1] * x + 2e-3 * std::sin(300.0 * p[0]) * x;
+  };
+  int told = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const FitProblem problem =
+        problem_of(rippled, Eigen::Vector2d(0.2, 1.4), 40, 0.02, seed);
+    const Calibration found = calibrate(problem);
+    for (const CalibratedParameter& parameter : found.parameters) {
+      if (!parameter.told) continue;
+      ++told;
+      for (const ProfilePoint& point : parameter.profile.points) {
+        if (point.value != parameter.value) continue;
+        EXPECT_LE(point.rise, 0.1) << "seed " << seed;
+      }
+    }
+  }
+  EXPECT_EQ(told, 40);
+}
+
 TEST(Calibration, AParameterWithoutInfluenceIsNotTold) {
   const auto line = [](const Eigen::VectorXd& p, double x) { return p[0] + x; };
   const FitProblem problem = problem_of(line, Eigen::Vector2d(0.2, 3.0), 40, 0.02, 1);

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include <CLI/CLI.hpp>
 
 #include "apps/option_checks.h"
 #include "apps/table.h"
+#include "planner/arm_crossings.h"
 
 namespace prehensile::apps {
 namespace {
@@ -56,6 +58,24 @@ void refuse_endless(const Plan& plan, const ArmLimits& limits) {
            seconds, limits.rate, kMostSamples));
 }
 
+/// The plan itself does not depend on where a scene puts its pushers, the arm does.
+void warn_of_crossings(const Model& model, const Plan& plan, const ArmMotion& motion) {
+  std::string found;
+  for (const ArmCrossing& crossing : arm_crossings(model, plan, motion)) {
+    const auto pusher = static_cast<std::size_t>(crossing.pusher);
+    found += (found.empty() ? "" : ", ") + model.scene.pushers[pusher].name +
+             text(" (at %.2f s, %s of push %d)", crossing.t,
+                  std::string(name(crossing.phase)).c_str(), crossing.push + 1);
+  }
+  if (found.empty()) return;
+  std::fprintf(
+      stderr,
+      "warning: the arm would carry the object through %s: seen at the samples "
+      "of its motion, lines without a length as endless; pushers.N.position says "
+      "where a pusher stands\n",
+      found.c_str());
+}
+
 }  // namespace
 
 void add_arm_options(CLI::App& command, ArmOptions& options) {
@@ -99,6 +119,7 @@ std::string write_arm_files(const ArmOptions& options, const Model& model,
   const ArmLimits limits = limits_of(options, model.scene);
   refuse_endless(plan.plan, limits);
   const ArmMotion motion = arm_motion(model, plan.plan, limits);
+  warn_of_crossings(model, plan.plan, motion);
   const double seconds = motion.samples.empty() ? 0.0 : motion.samples.back().t;
   std::string out;
   for (const int push : motion.blocked_transits) {

@@ -125,6 +125,23 @@ TEST(PlanOptions, ArmFilesAreWrittenByExtension) {
   EXPECT_EQ(read_text(none), "");
 }
 
+TEST(PlanOptions, AnArmThatCarriesTheObjectThroughAPusherIsWarnedOf) {
+  const Folder folder;
+  const std::string arm = " --arm " + folder.path("arm.csv").string();
+  const Outcome apart = planned(folder, kScene + arm);
+  EXPECT_EQ(apart.exit_code, 0);
+  EXPECT_EQ(apart.err, "");
+  const Outcome through =
+      planned(folder, kScene + " --set 'pushers.1.position=[0, 0]'" + arm);
+  EXPECT_EQ(through.exit_code, 0);
+  EXPECT_EQ(through.err.rfind("warning: the arm would carry the object through floor (at "
+                              "0.00 s, approach of push 1)",
+                              0),
+            0U)
+      << through.err;
+  EXPECT_EQ(std::count(through.err.begin(), through.err.end(), '\n'), 1) << through.err;
+}
+
 TEST(CheckSamples, AreTheSameForAnyNumberOfJobs) {
   const Folder folder;
   ASSERT_EQ(planned(folder, kScene + " --nominal").exit_code, 0);

@@ -1,4 +1,5 @@
-# Third parties, each as one imported target. Headers are SYSTEM: their warnings are not ours.
+# Third parties of the libraries, each as one imported target, for this build and for projects that
+# find an installed package. Headers are SYSTEM: their warnings are not ours.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 
 if(PREHENSILE_NLOPT)
@@ -11,59 +12,33 @@ endif()
 
 if(PREHENSILE_OBSTACLES)
   find_package(fcl 0.7 REQUIRED)
-  add_library(prehensile_fcl INTERFACE)
+  add_library(prehensile_fcl INTERFACE IMPORTED)
   target_link_libraries(prehensile_fcl INTERFACE fcl)
 endif()
 
 if(PREHENSILE_OMPL)
   # OMPL 1.5 exports variables, no target.
   find_package(ompl 1.5 REQUIRED)
-  add_library(prehensile_ompl INTERFACE)
+  add_library(prehensile_ompl INTERFACE IMPORTED)
   target_include_directories(prehensile_ompl SYSTEM INTERFACE ${OMPL_INCLUDE_DIRS})
   target_link_libraries(prehensile_ompl INTERFACE ${OMPL_LIBRARIES})
 endif()
 
 if(PREHENSILE_APPS)
   find_package(yaml-cpp 0.7 REQUIRED)
-  add_library(prehensile_yaml INTERFACE)
+  add_library(prehensile_yaml INTERFACE IMPORTED)
   target_link_libraries(prehensile_yaml INTERFACE yaml-cpp)
   find_package(nlohmann_json 3.11 REQUIRED)
-  find_package(CLI11 REQUIRED)
   find_package(ZLIB REQUIRED)
-  find_package(Threads REQUIRED)
-endif()
-
-if(PREHENSILE_APPS OR PREHENSILE_MESHES)
-  find_package(tinyxml2 REQUIRED)
-endif()
-
-if(PREHENSILE_APPS AND PREHENSILE_MUJOCO)
-  # The configuration that Debian installs asks for OpenGL, which this does not use.
-  find_path(MUJOCO_INCLUDE mujoco/mujoco.h REQUIRED)
-  find_library(MUJOCO_LIBRARY mujoco REQUIRED)
-  add_library(prehensile_mujoco INTERFACE)
-  target_include_directories(prehensile_mujoco SYSTEM INTERFACE ${MUJOCO_INCLUDE})
-  target_link_libraries(prehensile_mujoco INTERFACE ${MUJOCO_LIBRARY})
-endif()
-
-if(PREHENSILE_APPS AND PREHENSILE_SUITE)
-  find_package(SQLite3 3.24 REQUIRED)
-endif()
-
-if(PREHENSILE_APPS AND PREHENSILE_VIEWER AND PREHENSILE_GLTF)
-  find_package(TinyGLTF REQUIRED)
 endif()
 
 if(PREHENSILE_MESHES)
+  find_package(tinyxml2 REQUIRED)
   find_package(assimp 5.2 REQUIRED)
   find_path(POLYCLIPPING_INCLUDE polyclipping/clipper.hpp REQUIRED)
   find_library(POLYCLIPPING_LIBRARY polyclipping REQUIRED)
-  add_library(prehensile_polyclipping INTERFACE)
+  add_library(prehensile_polyclipping INTERFACE IMPORTED)
   target_include_directories(prehensile_polyclipping SYSTEM INTERFACE
     ${POLYCLIPPING_INCLUDE})
   target_link_libraries(prehensile_polyclipping INTERFACE ${POLYCLIPPING_LIBRARY})
-endif()
-
-if(PREHENSILE_TESTS)
-  find_package(GTest REQUIRED)
 endif()

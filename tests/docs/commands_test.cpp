@@ -37,6 +37,8 @@ struct Exception {
 constexpr std::array kExceptions{
     Exception{"bash scripts/quickstart.sh", Run::kNever, "installs packages as root"},
     Exception{"bash scripts/test.sh", Run::kNever, "runs this test"},
+    Exception{"cmake --install build/release", Run::kNever,
+              "house.installed_package_serves_a_project does it"},
     Exception{"cd viewer && npm ci", Run::kNever, "needs the npm registry"},
     Exception{"ompl_benchmark_statistics", Run::kNever,
               "of another package; tests/apps/benchmark_test.cpp runs it where it is"},

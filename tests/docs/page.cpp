@@ -136,7 +136,7 @@ std::vector<Session> sessions_of(const std::string& text) {
 }
 
 std::vector<std::string> faults_of(const std::string& text) {
-  static const std::set<std::string> kLanguages = {"sh", "text", "cpp", "yaml"};
+  static const std::set<std::string> kLanguages = {"sh", "text", "cpp", "cmake", "yaml"};
   std::vector<std::string> faults;
   const auto fault = [&faults](int line, const std::string& what) {
     faults.push_back("line " + std::to_string(line) + ": " + what);
@@ -148,7 +148,7 @@ std::vector<std::string> faults_of(const std::string& text) {
     const Block& block = blocks[i];
     if (!kLanguages.contains(block.language)) {
       fault(block.line,
-            "language \"" + block.language + "\", expected sh, text, cpp or yaml");
+            "language \"" + block.language + "\", expected sh, text, cpp, cmake or yaml");
     }
     const bool is_output =
         i > 0 && blocks[i - 1].language == "sh" && follows(lines, blocks[i - 1], block);

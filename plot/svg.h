@@ -23,8 +23,8 @@ std::string px(double value);
 /// invalid UTF-8 replaced.
 std::string escaped(std::string_view text);
 
-/// Width of a text [px], roughly: in DejaVu Sans, which stands in for the charts' narrower
-/// fonts where these are missing.
+/// Width of a text [px], roughly: in DejaVu Sans, which stands in for the charts'
+/// narrower fonts where these are missing.
 double text_width(std::string_view text, double font_size);
 
 /// Elements in the order in which they are drawn.

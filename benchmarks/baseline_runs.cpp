@@ -106,13 +106,7 @@ Run run_planner(const Problem& problem, const PlanOptions& options, bool robust)
   const Margin margin = robust ? usual_margin(model) : Margin::none();
   const SearchModel search_model = prepare_search(model, margin);
   Run run{problem.kind, problem.scene.name, options.planner, options.seed, {}};
-  if (find_planner(options.planner)->family == PlannerFamily::kOwn) {
-    run.us = time_us([&] { run.plan = search(search_model, options); }, 3);
-  } else {
-    const double start = thread_time_us();
-    run.plan = search(search_model, options);
-    run.us = thread_time_us() - start;
-  }
+  run.us = search_time_us([&] { run.plan = search(search_model, options); });
   run.solved = passes(model, options, run.plan);
   return run;
 }

@@ -19,7 +19,7 @@ struct Run {
   std::uint64_t seed = 0;
   Plan plan;
   bool solved = false;
-  double us = kNan;  ///< thread CPU time of the search alone
+  double us = kNan;  ///< thread CPU time of the search alone: search_time_us
 };
 
 /// The first `count` published pairs with the square and the T, in four attitudes of
@@ -33,8 +33,7 @@ std::vector<Problem> wide_problems(int count, std::uint64_t seed);
 std::vector<Problem> tuning_problems(int count, std::uint64_t seed);
 
 /// Searches with the planner of the options and puts its pushes, as they are, to the
-/// exact check and the replay. Our own planner is timed several times, for it takes
-/// microseconds.
+/// exact check and the replay.
 Run run_planner(const Problem& problem, const PlanOptions& options, bool robust);
 
 }  // namespace prehensile::benchmarks

@@ -2,10 +2,11 @@
 /// run: random pushes by points, short lines and walls, whole and clipped pads, over the
 /// pads point by point and over the ellipsoid.
 ///
-/// The error is that of the end pose against tolerance 1e-12 with steps of at most a
-/// twentieth of the push. Pushes that stop early are
-/// compared too; `status` and `reference_status` say where they part.
-/// Usage: bench_push [--quick] [--pushes N] [--seed S] [-o FILE]
+/// The error is that of the end pose against tolerance 1e-12 with steps that are ten
+/// times shorter: over the pads of at most a twenty-eighth of the push, over the
+/// ellipsoid of a fourteenth. Pushes that stop early are compared too; `status` and
+/// `reference_status` say where they part. Usage: bench_push [--quick] [--pushes N]
+/// [--seed S] [-o FILE]
 #include <cstdio>
 #include <string>
 #include <vector>

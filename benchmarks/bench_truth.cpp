@@ -157,6 +157,7 @@ void run_lines(const TruthOptions& options, std::FILE* csv) {
   const Tips fingers{.count = 2, .radius = 0.0, .mu = kLinePushFriction};
   Verdicts points, ellipsoid, whole, never;
   Errors pose;
+  int failures = 0;
   const auto every = static_cast<std::size_t>(options.every);
   for (std::size_t i = 0; i < data.pushes.size(); i += every) {
     const LinePush& push = data.pushes[i];
@@ -166,6 +167,7 @@ void run_lines(const TruthOptions& options, std::FILE* csv) {
     ellipsoid.add(sticks_at_start(data.plate, SupportModel::kEllipsoid, push), stuck);
     const PushedPlate end =
         push_plate(data.plate, SupportModel::kPoints, fingers, {}, path_of(push));
+    failures += end.failures;
     whole.add(follows(end.X_WO, push.commanded), stuck);
     pose.add(end.X_WO, push.measured);
     never.add(false, stuck);
@@ -183,9 +185,10 @@ void run_lines(const TruthOptions& options, std::FILE* csv) {
   whole.print("whole push, points, friction 0.4");
   never.print("never");
   std::printf(
-      "end pose of the whole push, mm / deg: mean %.2f / %.2f, median %.2f / %.2f\n",
+      "end pose of the whole push, mm / deg: mean %.2f / %.2f, median %.2f / %.2f; "
+      "%d steps unsolved\n",
       mean(pose.distance_mm), mean(pose.angle_deg), quantile(pose.distance_mm, 0.5),
-      quantile(pose.angle_deg, 0.5));
+      quantile(pose.angle_deg, 0.5), failures);
 }
 
 /// How many of the sets asked for are there.

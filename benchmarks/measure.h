@@ -37,6 +37,18 @@ double time_us(Call&& call, int batches) {
   return least;
 }
 
+/// Time of one search [us], of all planners alike: the least of three batches, so that
+/// what the first call of a program costs once is in none of them; a single call where it
+/// takes milliseconds, beside which that is nothing.
+template <typename Search>
+double search_time_us(Search&& search) {
+  constexpr double kLong = 5e3;  // [us]
+  const double start = thread_time_us();
+  search();
+  const double first = thread_time_us() - start;
+  return first >= kLong ? first : time_us(search, 3);
+}
+
 /// The smallest value that at least `share` of the values do not exceed; NaN values are
 /// left out, and without any value the answer is NaN.
 inline double quantile(std::vector<double> values, double share) {

@@ -71,6 +71,9 @@ std::string describe(const Model& model, const Options& options,
     out += text("event at %.3f %%: ", 100.0 * transition.events[i].s) +
            std::string(name(transition.events[i].kind)) + '\n';
   }
+  if (transition.more_events > 0) {
+    out += text("and %d events more in between\n", transition.more_events);
+  }
   out += "end: " + pose_text(model, transition.end) + '\n';
   // A push that stops at once may have no instant to tell of.
   if (std::isfinite(transition.max_push_force)) {
@@ -105,6 +108,7 @@ nlohmann::ordered_json to_json(const Transition& transition,
                                 {"instants", transition.instants},
                                 {"in_space", transition.in_space},
                                 {"events", nlohmann::ordered_json::array()},
+                                {"more_events", transition.more_events},
                                 {"samples", nlohmann::ordered_json::array()}};
   for (int i = 0; i < transition.event_count; ++i) {
     out["events"].push_back({{"done", number(transition.events[i].s)},

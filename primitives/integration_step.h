@@ -96,6 +96,31 @@ struct DenseStep {
     return by_u / k;
   }
 
+  /// Least and greatest rate of that polynomial on [0, to] times the step's length, of
+  /// each component: bounds, by its Bernstein coefficients there. `to` may exceed 1.
+  std::array<Vec2, 2> change_within(double to) const {
+    std::array<Vec2, 6> b;
+    b[0] = y;
+    b[1] = y + 0.2 * h * rate;
+    b[4] = y_end - 0.2 * h * rate_end;
+    b[5] = y_end;
+    const Vec2 sum = 3.2 * y_middle - 0.1 * (b[0] + b[5]) - 0.5 * (b[1] + b[4]);
+    const Vec2 difference =
+        1.6 * h * rate_middle + 0.5 * (b[0] - b[5]) + 1.5 * (b[1] - b[4]);
+    b[2] = 0.5 * (sum - difference);
+    b[3] = 0.5 * (sum + difference);
+    for (int level = 1; level < 6; ++level) {
+      for (int i = 5; i >= level; --i) b[i] = (1.0 - to) * b[i - 1] + to * b[i];
+    }
+    std::array<Vec2, 2> range{5.0 / to * (b[1] - b[0]), 5.0 / to * (b[1] - b[0])};
+    for (int i = 1; i < 5; ++i) {
+      const Vec2 change = 5.0 / to * (b[i + 1] - b[i]);
+      range[0] = range[0].cwiseMin(change);
+      range[1] = range[1].cwiseMax(change);
+    }
+    return range;
+  }
+
   /// Where the rate of the polynomial tells best what its state lacks at x.
   double telling(double x) const {
     return !is_doubled ? 0.5 : x < 0.5 ? kSteepest : 1.0 - kSteepest;

@@ -30,6 +30,28 @@ PathLimits::Values PathLimits::at(const SeatGeometry& geometry, const Seat& seat
           whole ? model_->region.whole_margin(X_HO) : -model_->region.whole_margin(X_HO)};
 }
 
+bool PathLimits::are_kept(const Values& one, const Values& other, const StepBound& bound,
+                          double width, double depth) const noexcept {
+  const auto sum = [&](Limit limit) {
+    const auto i = static_cast<std::size_t>(limit);
+    return std::max(one[i], -depth) + std::max(other[i], -depth) + 4.0 * depth;
+  };
+  const auto least = [&](Limit limit) {
+    const auto i = static_cast<std::size_t>(limit);
+    return std::max(std::min(one[i], other[i]), -depth) + 2.0 * depth;
+  };
+  // Depth and drift change no faster than the finger axis moves in the object.
+  if (sum(Limit::kPad) < width * bound.way) return false;
+  const double turned = std::isinf(guard_.angle) ? 0.0 : reach_ * bound.turn;
+  const double drifted = std::isinf(guard_.distance) ? 0.0 : bound.way;
+  if (sum(Limit::kGuard) < width * std::max(turned, drifted)) return false;
+  // Room is concave in the slide, and the way to flush linear in the tilt: they are least
+  // at the ends, or where the motion has come back from.
+  return least(Limit::kRoom) >= width * bound.slide_back &&
+         least(Limit::kFlush) >= width * bound.tilt_back * reach_ &&
+         width <= bound.spacing;
+}
+
 PushStop PathLimits::why_not(Limit limit, const Seat& seat) const {
   using enum TransitionStatus;
   switch (limit) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "primitives/linear_push.h"
 #include "primitives/push_record.h"
@@ -18,6 +19,16 @@ enum class Limit {
   kWholePad,   ///< the pad begins or ceases to overhang: the quadrature changes there
 };
 
+/// Bounds on the motion along a step, per share of it. What comes back is the part of a
+/// motion against its prevailing direction.
+struct StepBound {
+  double way = 0.0;         ///< [m] of the finger axis in the object
+  double turn = 0.0;        ///< [rad] of the object in the hand
+  double slide_back = 0.0;  ///< [m]
+  double tilt_back = 0.0;   ///< [rad]
+  double spacing = std::numeric_limits<double>::infinity();  ///< of looks at clearances
+};
+
 class PathLimits {
  public:
   static constexpr int kCount = 6;
@@ -29,6 +40,12 @@ class PathLimits {
   /// `whole`: whether the pad is to stay whole, or clipped.
   Values at(const SeatGeometry& geometry, const Seat& seat, const Vec2& q,
             const PlanarPose& X_HO, bool whole) const noexcept;
+
+  /// Whether no limit, kWholePad aside, can be crossed by more than twice the `depth` [m]
+  /// between two places of a step, `width` of it apart, where none is crossed by more
+  /// than `depth`. Exact but for kClearance, of which only the spacing is looked at.
+  bool are_kept(const Values& one, const Values& other, const StepBound& bound,
+                double width, double depth) const noexcept;
 
   /// What to report when a limit that ends the push is reached.
   PushStop why_not(Limit limit, const Seat& seat) const;

@@ -1,5 +1,6 @@
 /// Where the motion of a step changes or ends.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "primitives/push_run.h"
@@ -25,13 +26,132 @@ constexpr double kUsedUp = 0.1;
 constexpr double kContinued = 2.5;
 constexpr double kContinuationError = 1e3;
 
+/// Half of the depth to which a limit may be crossed unseen inside of a step: over the
+/// tolerance, and over the way of the finger axis, which bounds the work along a limit.
+constexpr double kDepthUnseen = 0.5;
+constexpr double kOfWayUnseen = 1e-4;
+
+/// How far apart clearances are looked at where nothing bounds them, at most and at
+/// least: shares of the step.
+constexpr double kClearanceSpacing = 0.25;
+constexpr double kLeastSpacing = 1e-3;
+
+/// Halvings of a step: as many as numbers allow.
+constexpr int kMostHalvings = 60;
+
 }  // namespace
 
 template <class Instant>
 Crossing PushRun<Instant>::first_crossing() {
-  Crossing first;
   const PathLimits::Values at_start = limits(s_, q_);
   const PathLimits::Values at_end = limits(s_ + step_.h, step_.y_end);
+  const Crossing first = crossing_by_end(at_start, at_end);
+  if (first.at == 0.0) return first;
+  const Crossing before =
+      first.at > 1.0
+          ? crossing_between(0.0, at_start, 1.0, at_end)
+          : crossing_between(0.0, at_start, first.at,
+                             limits(s_ + first.at * step_.h, step_.at(first.at)));
+  return before.limit ? before : first;
+}
+
+/// Bounds on the motion along the step up to the share `to`.
+template <class Instant>
+StepBound PushRun<Instant>::bound_within(double to) const {
+  StepBound bound;
+  bound.way = step_.h * push_.travel;
+  bound.turn = step_.h * std::abs(push_.turn);
+  if (rides()) return bound;
+  const auto [least, most] = step_.change_within(to);
+  const Vec2 change = least.cwiseAbs().cwiseMax(most.cwiseAbs());
+  const Vec2 back = (-least).cwiseMin(most).cwiseMax(0.0);
+  const SeatGeometry& geometry = instant_.geometry();
+  const Vec2 p_OF = finger_in_object(instant_.pose(seat_, step_.s, step_.y));
+  const Vec2 p_PF = transform(geometry.object(seat_, step_.y), p_OF);
+  const double arm = (p_PF - geometry.touch(seat_, step_.y).p_P[0]).norm();
+  bound.way += change[0];
+  bound.way += change[1] * (arm + to * bound.way);
+  bound.turn += change[1];
+  bound.slide_back = back[0];
+  bound.tilt_back = back[1];
+  const PushContact& contact = model_.contacts[push_.contact];
+  if (contact.is_point) return bound;
+  // Clearances of a line without ends depend on the tilt alone, and are least at the ends
+  // of its range.
+  const double moved =
+      std::isinf(contact.half_length) ? 0.0 : change[0] + change[1] * model_.L;
+  if (moved == 0.0 && back[1] * model_.L <= options_.tolerance) return bound;
+  bound.spacing = kClearanceSpacing;
+  // No corner passes the whole of a shorter line between two looks.
+  if (moved > 0.0) {
+    bound.spacing =
+        std::clamp(2.0 * contact.half_length / moved, kLeastSpacing, bound.spacing);
+  }
+  return bound;
+}
+
+/// The first limit, kWholePad aside, that is crossed between two places of the step where
+/// it may well be kept. Bounds on the motion say where it has to be looked for.
+template <class Instant>
+Crossing PushRun<Instant>::crossing_between(double from,
+                                            const PathLimits::Values& at_from, double to,
+                                            const PathLimits::Values& at_to) const {
+  struct Place {
+    double at;
+    PathLimits::Values values;
+  };
+  Crossing first;
+  const StepBound bound = bound_within(to);
+  const double depth =
+      std::max(kDepthUnseen * options_.tolerance, kOfWayUnseen * bound.way);
+  if (limits_.are_kept(at_from, at_to, bound, to - from, depth)) return first;
+  Place low{from, at_from};
+  std::array<Place, kMostHalvings + 1> ahead;  // the nearest one last
+  ahead[0] = {to, at_to};
+  int count = 1;
+  while (count > 0) {
+    const Place& high = ahead[count - 1];
+    const double width = high.at - low.at;
+    if (count > kMostHalvings ||
+        limits_.are_kept(low.values, high.values, bound, width, depth)) {
+      low = high;
+      --count;
+      continue;
+    }
+    const double middle = low.at + 0.5 * width;
+    const auto values_at = [&](double x) {
+      return limits(step_.s + x * step_.h, step_.at(x));
+    };
+    ahead[count] = {middle, values_at(middle)};
+    const PathLimits::Values& there = ahead[count].values;
+    ++count;
+    Crossing met;
+    for (int i = 0; i < PathLimits::kCount; ++i) {
+      const auto limit = static_cast<Limit>(i);
+      if (limit == Limit::kWholePad || there[i] >= -depth) continue;
+      const double at_low = low.values[i];
+      const double at = at_low <= 0.0
+                            ? low.at
+                            : falling_root([&](double x) { return values_at(x)[i]; },
+                                           low.at, at_low, middle, there[i], kResolution);
+      if (at < met.at) met = {at, limit, true};
+    }
+    if (!met.limit) continue;
+    // Nothing lies before it but what may have been crossed and left again.
+    first = met;
+    if (first.at <= low.at) return first;
+    ahead[0] = {first.at, values_at(first.at)};
+    count = 1;
+  }
+  return first;
+}
+
+/// The first change that the end of the step, or a look at the contact mode inside, tells
+/// of.
+template <class Instant>
+Crossing PushRun<Instant>::crossing_by_end(const PathLimits::Values& at_start,
+                                           const PathLimits::Values& at_end) {
+  Crossing first;
   for (int i = 0; i < PathLimits::kCount; ++i) {
     if (at_end[i] >= -kRoundOff) continue;
     const auto limit = [&](double x) { return limits(s_ + x * step_.h, step_.at(x))[i]; };
@@ -147,7 +267,8 @@ void PushRun<Instant>::look_at_block() {
     const bool found = rate_in_mode(end, step_.at(low), rate);
     const double lacks = length_of(rate - step_.rate_at(low));
     const double continued = (low - 1.0) * step_.h * lacks;
-    lawful = lawful && found && continued <= control_.allowed(step_.h);
+    lawful = lawful && found && continued <= control_.allowed(step_.h) &&
+             !crossing_between(1.0, limits(s_, q_), low, left).limit;
     // From afar another motion may have been met there than from here.
     if (goes_on(high)) {
       control_.unblock();

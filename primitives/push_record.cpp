@@ -26,16 +26,16 @@ void PushRecord::add(const Sample& sample) {
 }
 
 void PushRecord::add(EventKind kind, double s) {
-  if (transition_.event_count == Transition::kMaxEvents) {
-    return stop({TransitionStatus::kIterationLimit, {}, "the contact mode alternates"},
-                s);
+  // One place is kept for the event that ends the push.
+  if (transition_.event_count == Transition::kMaxEvents - 1) {
+    ++transition_.more_events;
+  } else {
+    transition_.events[transition_.event_count++] = {kind, s};
   }
-  transition_.events[transition_.event_count++] = {kind, s};
 }
 
-void PushRecord::add_passing(EventKind kind, double s) {
-  // One place is kept for the event that ends the push.
-  if (transition_.event_count < Transition::kMaxEvents - 1) add(kind, s);
+void PushRecord::take_back() {
+  --(transition_.more_events > 0 ? transition_.more_events : transition_.event_count);
 }
 
 void PushRecord::stop(const PushStop& why, double s) {

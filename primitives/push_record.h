@@ -24,15 +24,11 @@ class PushRecord {
 
   void add(const Sample& sample);
 
-  /// An event that does not end the push. A push whose contact modes alternate more often
-  /// than there is room for is stopped.
+  /// An event that does not end the push: kept while there is room, else only counted.
   void add(EventKind kind, double s);
 
-  /// An event of a push that may have any number of them: kept while there is room.
-  void add_passing(EventKind kind, double s);
-
   /// Forgets the last event, which turned out not to be one.
-  void take_back() { --transition_.event_count; }
+  void take_back();
 
   void stop(const PushStop& why, double s);
   bool stopped() const { return transition_.status != TransitionStatus::kNotRun; }

@@ -61,7 +61,8 @@ void PushRun<Instant>::advance() {
   if (step_.h > 2.0 * location && is_of_other_motion(crossing)) {
     return control_.land(0.5 * step_.h);
   }
-  if (!crossing.limit && crossing.at == 0.0 && step_.h > 4.0 * location) {
+  const bool may_be_later = !crossing.limit || crossing.returns;
+  if (may_be_later && crossing.at == 0.0 && step_.h > kShortest * location) {
     // Right after an event the new mode may last for less than this step.
     return control_.land(0.25 * step_.h);
   }
@@ -211,21 +212,28 @@ void PushRun<Instant>::take_regime(Regime regime) {
   if (returns) {
     regime_since_ = -1.0;
     record_.take_back();
-    if (++returns_ > kMostReturns) {
-      record_.stop({TransitionStatus::kIterationLimit, {}, "the contact mode alternates"},
-                   s_);
-    }
+    if (++returns_ > kMostReturns) stop(kAlternates);
     return;
   }
   control_.renew();
-  record_.add(regime == Regime::kStick ? EventKind::kStick : EventKind::kSlip, s_);
+  add(regime == Regime::kStick ? EventKind::kStick : EventKind::kSlip);
+}
+
+/// A change of contact mode. Many are no reason to stop a push, but modes too short to be
+/// told apart are.
+template <class Instant>
+void PushRun<Instant>::add(EventKind event) {
+  record_.add(event, s_);
+  if (s_ - changed_at_ <= kShortest * control_.location()) ++close_changes_;
+  changed_at_ = s_;
+  if (close_changes_ > kMostCloseChanges) stop(kAlternates);
 }
 
 template <class Instant>
 void PushRun<Instant>::take_seat(const Seat& seat, EventKind event) {
   seat_ = seat;
   q_ = Vec2::Zero();
-  record_.add(event, s_);
+  add(event);
   if (!solve_here()) return;
   control_.renew();
   regime_ = regime_before_ = instant_.regime();

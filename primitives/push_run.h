@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "primitives/integration_step.h"
@@ -26,6 +28,7 @@ namespace prehensile {
 struct Crossing {
   double at = StepControl::kNever;
   std::optional<Limit> limit;
+  bool returns = false;  ///< the limit is kept again farther on
 };
 
 /// A place inside a step, as a share of it, and the margin of the contact mode there.
@@ -44,13 +47,13 @@ class PushRun {
           std::vector<Sample>* trace)
       : model_(model),
         push_(push),
-        options_(options),
+        options_(closer(options, push)),
         psi_(start.psi),
         reach_(std::max(model.c, kLeastReach * model.L)),
         instant_(model, push, start, options),
         limits_(model, start, guard, reach_),
         record_(options.certificate_tolerance, trace),
-        control_(kStepShare * options.tolerance, longest_step(options),
+        control_(kStepShare * options.tolerance, longest_step(options_),
                  std::clamp(kLocationShare * options.tolerance / instant_.speed(), 1e-12,
                             1e-3)),
         traced_(trace != nullptr) {}
@@ -78,11 +81,26 @@ class PushRun {
     return std::min(1.0, (is_smooth ? 14.0 : 7.0) * options.max_step);
   }
 
+  /// A push that turns by more than half a turn is looked at as closely as if its half
+  /// turns were pushes of their own.
+  static TransitionOptions closer(TransitionOptions options, const LinearPush& push) {
+    const double turned = std::max(std::abs(push.turn), std::abs(push.bend));
+    options.max_step *= std::min(1.0, std::numbers::pi / turned);
+    return options;
+  }
+
   /// Share of its length by which a step that is to end at an event goes beyond it.
   static constexpr double kBeyond = 0.02;
 
-  /// So often may a regime be left at once for the one before.
+  /// So often may a regime be left at once for the one before, and may a change of
+  /// contact mode come right after another one.
   static constexpr int kMostReturns = 32;
+  static constexpr int kMostCloseChanges = 16;
+
+  /// Length over the location of events of a step that is not made shorter for one.
+  static constexpr double kShortest = 4.0;
+  static constexpr PushStop kAlternates{
+      TransitionStatus::kIterationLimit, {}, "the contact mode alternates"};
 
   /// Weight of an angle for pads that cannot exert a torque, over the size of the object.
   static constexpr double kLeastReach = 0.01;
@@ -116,6 +134,11 @@ class PushRun {
   void trace_inside(double share);
 
   Crossing first_crossing();
+  Crossing crossing_by_end(const PathLimits::Values& at_start,
+                           const PathLimits::Values& at_end);
+  StepBound bound_within(double to) const;
+  Crossing crossing_between(double from, const PathLimits::Values& at_from, double to,
+                            const PathLimits::Values& at_to) const;
   PathLimits::Values limits(double s, const Vec2& q) const;
   double mode_margin() const { return instant_.margin(seat_, regime_).least(); }
 
@@ -123,6 +146,7 @@ class PushRun {
   void change_mode();
   void take_seat(const Seat& seat, EventKind event);
   void take_regime(Regime regime);
+  void add(EventKind event);
   bool solve_here();
   void stop(const PushStop& why);
   bool rides() const {
@@ -163,6 +187,8 @@ class PushRun {
   Regime regime_before_ = Regime::kStick;
   double regime_since_ = -1.0;  ///< share of the push at which the regime was taken
   int returns_ = 0;             ///< how often a regime was left at once
+  double changed_at_ = -1.0;    ///< share of the push of the last change of contact mode
+  int close_changes_ = 0;       ///< right after another
   bool was_stiff_ = false;      ///< when the regime before was left
   bool stiff_ = false;
   double stiffness_ =

@@ -13,6 +13,7 @@ constexpr double kNegligible = 1e-6;
 constexpr double kLongestStep = std::numbers::pi / 180.0;  // [rad] between looks
 constexpr double kJustAfter = 1e-8;                        // [rad] of a change
 constexpr double kNegligibleShare = 1e-12;                 // of the travel
+constexpr double kMostTurns = 250.0;                       // that allow more steps
 
 /// Why the roll cannot even begin; empty if it can.
 std::string_view refusal(const Model& model, const Grasp& start, const Roll& roll,
@@ -61,7 +62,7 @@ class Walk {
     const double longest =
         std::min(kLongestStep, options_.max_step * travel_ / roll_.polygon().size);
     for (int i = 0; !record_.stopped() && done_ < travel_; ++i) {
-      if (i == options_.max_steps) {
+      if (i >= allowed_steps()) {
         record_.stop({TransitionStatus::kIterationLimit, {}, "too many steps"}, share());
         break;
       }
@@ -75,6 +76,11 @@ class Walk {
   PrismLook look(double phi) {
     ++looks_;
     return roll_.look(phi);
+  }
+  /// The option's number for every turn, so that long rolls end by their travel.
+  double allowed_steps() const {
+    const double turns = std::abs(phi_ - roll_.first()) / (2.0 * std::numbers::pi);
+    return options_.max_steps * (1.0 + std::min(std::floor(turns), kMostTurns));
   }
   double share() const { return std::min(1.0, done_ / travel_); }
   void stop(double phi, const PrismLook& look) {
@@ -167,7 +173,7 @@ class Walk {
     if (!at.contacts.held()) return stop(target, at);
     move_to(target, at);
     const int pivot = roll_.pivot(at.contacts);
-    if (pivot != pivot_) record_.add_passing(EventKind::kOverEdge, share());
+    if (pivot != pivot_) record_.add(EventKind::kOverEdge, share());
     pivot_ = pivot;
     ends_ = done_ >= travel_ * (1.0 - kNegligibleShare);
     if (!at.rolls && !ends_ && !record_.stopped()) stop(target, at);

@@ -79,7 +79,8 @@ struct TransitionOptions {
                             ///< the longest steps: seven (ellipsoid: fourteen) of it
                             ///< where the object slips or turns; lower it to see contact
                             ///< modes that last for less than half of such a step
-  int max_steps = 2000;     ///< attempted steps; raise for stiff pushes at fine tolerance
+  int max_steps = 2000;  ///< attempted steps, of a prism's roll in each turn; raise for
+                         ///< stiff pushes at fine tolerance
   double certificate_tolerance = 1e-6;
   FrictionModel friction_model = FrictionModel::kPads;  ///< not for rolls
   PushLevel level = PushLevel::kChoose;                 ///< not for rolls
@@ -127,10 +128,11 @@ struct Transition {
   double least_jaw_force = kNan;  ///< [N] of the looser jaw
   double least_pressed = kNan;    ///< see Sample
   double most_out_of_plane = kNan;
-  int instants = 0;  ///< mechanics calls
-  int checks = 0;    ///< of sticking lines, where the motion is known and only the
-                     ///< pusher's forces are looked at; a small part of an instant
-  int event_count = 0;
+  int instants = 0;     ///< mechanics calls
+  int checks = 0;       ///< of sticking lines, where the motion is known and only the
+                        ///< pusher's forces are looked at; a small part of an instant
+  int event_count = 0;  ///< in `events`: the first ones, and the one that ended the push
+  int more_events = 0;  ///< that there was no room for
   std::array<Event, kMaxEvents> events;
 
   bool completed() const { return status == TransitionStatus::kCompleted; }

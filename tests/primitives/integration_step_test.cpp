@@ -219,5 +219,34 @@ TEST(DenseStep, GivesUpBeforeTheHalves) {
   EXPECT_GT(step.error.norm(), 0.0);
 }
 
+// Nothing inside changes faster than the bound says, nor beyond the end of the step.
+TEST(IntegrationStep, ChangesStayWithinTheirBounds) {
+  for (const double h : {0.1, 0.8}) {
+    for (const bool is_doubled : {false, true}) {
+      DenseStep step;
+      if (is_doubled) {
+        doubled_error(spiral, h, step);
+      } else {
+        step = single_over(h);
+      }
+      for (const double to : {0.3, 1.0, 2.5}) {
+        const auto [least, most] = step.change_within(to);
+        Vec2 seen_least = h * step.rate_at(0.0);
+        Vec2 seen_most = seen_least;
+        for (int i = 0; i <= 200; ++i) {
+          const Vec2 change = h * step.rate_at(to * i / 200.0);
+          seen_least = seen_least.cwiseMin(change);
+          seen_most = seen_most.cwiseMax(change);
+        }
+        EXPECT_TRUE(((seen_least - least).array() > -1e-12).all()) << h << " " << to;
+        EXPECT_TRUE(((most - seen_most).array() > -1e-12).all()) << h << " " << to;
+        // And they are no idle ones.
+        const double range = (seen_most - seen_least).norm();
+        EXPECT_LT((most - least).norm(), 3.0 * range + 1e-12) << h << " " << to;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace prehensile

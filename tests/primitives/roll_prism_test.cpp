@@ -311,5 +311,19 @@ TEST(RollPrism, NoHeapWithoutATrace) {
   EXPECT_TRUE(out.completed());
 }
 
+// The number of steps is one for every turn: a long roll ends by its travel.
+TEST(RollPrism, RollsAsFarAsTheSupportTravels) {
+  const Bench bench = square_bar();
+  const Transition out = bench.roll(5.04);
+  ASSERT_TRUE(out.completed()) << out.reason;
+  EXPECT_NEAR(out.end.psi, -42.0 * 2.0 * kPi, 1e-7);
+  EXPECT_EQ(out.event_count + out.more_events, 4 * 42);
+  const Roll roll{0, 5.04};
+  const Transition short_of_steps =
+      apply(prepare(bench.scene), bench.scene.start, roll, {.max_steps = 50});
+  EXPECT_EQ(short_of_steps.status, TransitionStatus::kIterationLimit);
+  EXPECT_LT(short_of_steps.done, 0.01);
+}
+
 }  // namespace
 }  // namespace prehensile

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <vector>
 
 #include "mechanics/sticking.h"
 #include "primitives/roll.h"
@@ -45,16 +46,25 @@ bool sticks(const Model& model, const PlanarPose& X_HO, const LinearPush& push) 
 }
 
 /// A point pusher sticks at its point while the object turns about it as it likes: the
-/// push is one that the exact mechanics follows to its end on the object, gravity held
-/// before and after.
+/// push is one that the exact mechanics follows to its end, on the object all the way,
+/// gravity held before and after.
 bool follows(const Model& model, const PlanarPose& X_HO, const LinearPush& push) {
   constexpr double kSlip = 1e-5;  // [m]
   const PushContact& contact = model.contacts[push.contact];
   const Transition done = apply(model, {X_HO, 0.0}, push);
   const Vec2 end = finger_in_object(done.end.X_HO);
-  return done.completed() && done.slipped < kSlip &&
-         held(model, contact, finger_in_object(X_HO)) && held(model, contact, end) &&
-         depth_inside(model.outline, end) > 1e-3;
+  const auto is_deep = [&](const Vec2& p) {
+    return depth_inside(model.outline, p) > 1e-3;
+  };
+  if (!done.completed() || !(done.slipped < kSlip) || !is_deep(end) ||
+      !held(model, contact, finger_in_object(X_HO)) || !held(model, contact, end)) {
+    return false;
+  }
+  std::vector<Sample> trace;
+  apply(model, {X_HO, 0.0}, push, {}, &trace);
+  return std::all_of(trace.begin(), trace.end(), [&](const Sample& sample) {
+    return is_deep(finger_in_object(sample.grasp.X_HO));
+  });
 }
 
 std::optional<LinearPush> random_move(const Model& model, const PlanarPose& X_HO,

@@ -13,12 +13,19 @@ namespace {
 
 constexpr double kPeakRate = 1.875;
 const double kPeakSecondRate = 10.0 / std::sqrt(3.0);
-constexpr double kTouch = 2.0;  // [N] allowed on top where nothing should touch
+constexpr double kTouch = 2.0;  // [N] allowed on top of what is expected
 
 ArmPose spatial(const HandPose& hand) {
   return {{hand.X_WH.x, hand.X_WH.y, hand.z},
           Eigen::Quaterniond(Eigen::AngleAxisd(hand.X_WH.theta, Vec3::UnitZ()))};
 }
+
+/// The samples [first, end) of one phase.
+struct Run {
+  ArmPhase phase = ArmPhase::kTransit;
+  int push = 0;
+  std::size_t first = 0, end = 0;
+};
 
 /// Force of the pusher on the object, and where it acts; in O.
 struct PushLoad {
@@ -43,6 +50,7 @@ class MotionWriter {
       write_push();
       end_placement();
     }
+    set_guards();
     return std::move(motion_);
   }
 
@@ -76,6 +84,7 @@ class MotionWriter {
     if (push_ == 0) grip_ = grip_on_way(0);
     z_ = 0.0;
     const PlanarPose& X_HO = planned().start.X_HO;
+    held_ = X_HO;
     const HandPose away = hand(X_HO, limits_.clearance);
     if (push_ > 0) write_transit(away, X_HO);
     move(ArmPhase::kApproach, limits_.clearance, 0.0, limits_.approach_speed,
@@ -114,8 +123,10 @@ class MotionWriter {
     const PlanarPose& X_HO = planned().start.X_HO;
     const PlanarPose X_WP = object_at_pusher(model_, contact(), push.place);
     move(ArmPhase::kPush, push.travel, push.turn, limits_.push_speed, [&](double s) {
-      return HandPose{compose(X_WP, inverse(pusher_pose(push, X_HO, s))), z_};
+      held_ = pusher_pose(push, X_HO, s);
+      return HandPose{compose(X_WP, inverse(held_)), z_};
     });
+    held_ = planned().end.X_HO;
   }
 
   void write_roll(const Roll& roll) {
@@ -125,6 +136,7 @@ class MotionWriter {
       return HandPose{begin.X_WH, begin.z - s * roll.travel};
     });
     z_ -= roll.travel;
+    held_ = planned().end.X_HO;
     change_grip(grip_on_way(push_ + 1), planned().end);
   }
 
@@ -179,7 +191,7 @@ class MotionWriter {
       add(phase, (steps_ + i) / limits_.rate, s, pose);
     }
     steps_ += steps;
-    set_guard(phase, first);
+    runs_.push_back({phase, push_, first, motion_.samples.size()});
   }
 
   void add(ArmPhase phase, double t, double s, HandPose pose) {
@@ -213,13 +225,7 @@ class MotionWriter {
 
   /// Push and weight, moved to the tool.
   void set_load(ArmPhase phase, double s, const HandPose& pose, ArmSample& sample) const {
-    const bool moves = phase == ArmPhase::kPush;
-    const bool rolls = std::holds_alternative<Roll>(planned().push);
-    const PlanarPose X_HO =
-        moves && !rolls ? pusher_pose(as_linear(planned().push), planned().start.X_HO, s)
-        : phase == ArmPhase::kRetreat ? planned().end.X_HO
-                                      : planned().start.X_HO;
-    const PlanarPose X_WO = compose(pose.X_WH, X_HO);
+    const PlanarPose X_WO = compose(pose.X_WH, held_);
     const Vec2 com = transform(X_WO, model_.p_OCom);
     const Vec3 weight(model_.mass * model_.scene.g_W.x(),
                       model_.mass * model_.scene.g_W.y(),
@@ -227,7 +233,7 @@ class MotionWriter {
     const Vec3 p_WCom(com.x(), com.y(), pose.z + model_.z_OCom);
     Vec3 force = weight;
     Vec3 moment = (p_WCom - sample.X_WT.position).cross(weight);
-    if (moves) {
+    if (phase == ArmPhase::kPush) {
       const PushLoad load = load_at(s);
       const Vec2 f = rotated(X_WO.theta, load.force);
       const Vec2 p = transform(X_WO, load.place);
@@ -240,18 +246,35 @@ class MotionWriter {
     sample.moment = sample.X_WT.orientation.conjugate() * moment;
   }
 
-  /// The greatest load of the phase; before and after a push, where a touch may come
-  /// early or leave late, half of what the push will take on top.
-  void set_guard(ArmPhase phase, std::size_t first) {
+  /// Greatest expected force of these samples.
+  double most_of(const Run& run) const {
     double most = 0.0;
-    for (std::size_t i = first; i < motion_.samples.size(); ++i) {
+    for (std::size_t i = run.first; i < run.end; ++i) {
       most = std::max(most, motion_.samples[i].force.norm());
     }
-    const bool near = phase == ArmPhase::kApproach || phase == ArmPhase::kRetreat;
-    const double touch = near ? 0.5 * planned().push_force : 0.0;
-    const double guard = limits_.guard_factor * most + touch + kTouch;
-    for (std::size_t i = first; i < motion_.samples.size(); ++i) {
-      motion_.samples[i].guard_force = guard;
+    return most;
+  }
+
+  /// Every phase at a pusher bears the pushes next to it: a touch that comes early takes
+  /// the whole of the push to come, and what a push has built up stays until the hand
+  /// has left, or until the next push at this place has built up its own.
+  void set_guards() {
+    std::vector<double> of_push(plan_.pushes.size(), 0.0);
+    for (const Run& run : runs_) {
+      if (run.phase != ArmPhase::kPush) continue;
+      of_push[static_cast<std::size_t>(run.push)] = most_of(run);
+    }
+    const auto push = [&](int index) { return of_push[static_cast<std::size_t>(index)]; };
+    for (const Run& run : runs_) {
+      double most = most_of(run);
+      if (run.phase != ArmPhase::kTransit) most = std::max(most, push(run.push));
+      if (run.phase == ArmPhase::kPush || run.phase == ArmPhase::kGrip) {
+        if (continues(run.push)) most = std::max(most, push(run.push - 1));
+        if (continues(run.push + 1)) most = std::max(most, push(run.push + 1));
+      }
+      for (std::size_t i = run.first; i < run.end; ++i) {
+        motion_.samples[i].guard_force = limits_.guard_factor * most + kTouch;
+      }
     }
   }
 
@@ -261,6 +284,8 @@ class MotionWriter {
   Vec3 p_HT_;
   Eigen::Quaterniond q_HT_;
   ArmMotion motion_;
+  std::vector<Run> runs_;
+  PlanarPose held_;  // X_HO, at the time of the sample that is written
   int push_ = 0;
   int steps_ = 0;  // of 1 / rate since the motion began
   double grip_ = 0.0;

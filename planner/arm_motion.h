@@ -31,7 +31,7 @@ struct ArmLimits {
   double clearance = 0.03;         ///< [m] from the pusher before and after a placement
   double grip_seconds = 0.5;       ///< [s] that a change of the grip force takes
   double rate = 100.0;             ///< [Hz] of the samples; each phase ends on a sample
-  double guard_factor = 1.5;       ///< guard over greatest expected load
+  double guard_factor = 1.5;       ///< guard over greatest expected load, see ArmSample
 };
 
 enum class ArmPhase {
@@ -59,7 +59,9 @@ struct ArmSample {
   /// the gripper. In T, moments about the origin of T.
   Vec3 force = Vec3::Zero();   ///< [N]
   Vec3 moment = Vec3::Zero();  ///< [N m]
-  double guard_force = 0.0;    ///< [N] a greater force means that something is wrong
+  /// [N] A greater force means that something is wrong. One for each phase: at a pusher
+  /// it covers the loads of the pushes just before and after, too.
+  double guard_force = 0.0;
 };
 
 struct ArmMotion {

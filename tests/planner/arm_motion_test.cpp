@@ -28,6 +28,26 @@ std::vector<Scene> scenes() {
   return scenes;
 }
 
+/// Also some whose grip force differs from push to push.
+std::vector<Scene> scenes_with_grips() {
+  std::vector<Scene> all = scenes();
+  for (int i = 0; i < 10; ++i) {
+    for (Scene scene :
+         {published_tee(i), random_regrasp(RegraspFamily::kTee, 4, i).scene}) {
+      const double own = scene.gripper.grip_force;
+      scene.gripper.grip_range = Vec2(0.2 * own, 2.0 * own);
+      all.push_back(scene);
+    }
+  }
+  return all;
+}
+
+/// The last sample of a push before this one.
+const ArmSample& push_before(const std::vector<ArmSample>& samples, std::size_t i) {
+  while (i > 0 && samples[i].phase != ArmPhase::kPush) --i;
+  return samples[i];
+}
+
 std::vector<ArmPose> poses_of(const ArmMotion& motion, int push, ArmPhase phase) {
   std::vector<ArmPose> poses;
   for (const ArmSample& sample : motion.samples) {
@@ -184,6 +204,65 @@ TEST(ArmMotion, LoadsAreWeightAndPush) {
       EXPECT_LE(force, weight + 1.01 * push + 1e-9);
     }
   }
+}
+
+/// Where phases meet, hand and object stand still under the loads of both: what a push
+/// has built up is still there when the next phase begins, and may be early. Neither
+/// phase may take that for a fault.
+TEST(ArmMotion, GuardsCoverBothSidesOfEveryChangeOfPhase) {
+  int changes = 0;
+  int from_push = 0;
+  for (const Scene& scene : scenes_with_grips()) {
+    const Model model = prepare(scene);
+    const Plan plan = plan_regrasp(model);
+    ASSERT_TRUE(plan.usable()) << scene.name;
+    const std::vector<ArmSample> samples = arm_motion(model, plan).samples;
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+      const ArmSample& before = samples[i - 1];
+      const ArmSample& after = samples[i];
+      if (after.t > before.t) continue;
+      ++changes;
+      from_push += before.phase == ArmPhase::kPush;
+      const double force = std::max(before.force.norm(), after.force.norm());
+      EXPECT_GT(before.guard_force, force) << scene.name << " at " << after.t << " s";
+      EXPECT_GT(after.guard_force, force) << scene.name << " at " << after.t << " s";
+      // A grip phase between push and retreat does not hide what the push built up.
+      if (after.phase != ArmPhase::kRetreat) continue;
+      EXPECT_GE(after.guard_force, 1.5 * push_before(samples, i).force.norm());
+    }
+  }
+  EXPECT_GT(changes, 200);
+  EXPECT_GT(from_push, 50);
+}
+
+/// The object lies in the hand as the push before has left it.
+TEST(ArmMotion, WeightHangsWhereTheObjectIs) {
+  int grips = 0;
+  for (const Scene& scene : scenes_with_grips()) {
+    const Model model = prepare(scene);
+    const Plan plan = plan_regrasp(model);
+    const Vec3 weight(model.mass * scene.g_W.x(), model.mass * scene.g_W.y(),
+                      model.mass * scene.g_Wz);
+    const std::vector<ArmSample> samples = arm_motion(model, plan).samples;
+    bool is_pushed = false;  // by the push that the sample names
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const ArmSample& sample = samples[i];
+      if (i == 0 || samples[i - 1].push != sample.push) is_pushed = false;
+      is_pushed |= sample.phase == ArmPhase::kPush;
+      if (sample.phase == ArmPhase::kPush) continue;
+      grips += is_pushed && sample.phase == ArmPhase::kGrip;
+      const PlannedPush& planned = plan.pushes[static_cast<std::size_t>(sample.push)];
+      const Grasp& grasp = is_pushed ? planned.end : planned.start;
+      const Vec2 p_HCom = transform(grasp.X_HO, model.p_OCom);
+      const Vec3 lever =
+          sample.X_WH.position +
+          sample.X_WH.orientation * Vec3(p_HCom.x(), p_HCom.y(), model.z_OCom) -
+          sample.X_WT.position;
+      const Vec3 moment = sample.X_WT.orientation * sample.moment;
+      EXPECT_LT((moment - lever.cross(weight)).norm(), 1e-9) << scene.name;
+    }
+  }
+  EXPECT_GT(grips, 100);
 }
 
 /// Relax, push, tighten: the grip changes while the hand stands still at a pusher, and

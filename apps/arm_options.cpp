@@ -1,7 +1,5 @@
 #include "apps/arm_options.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <numbers>
 
@@ -36,26 +34,11 @@ ArmLimits limits_of(const ArmOptions& options, const Scene& scene) {
   return limits;
 }
 
-constexpr double kMostSamples = 1e6;
-
-/// A file that nobody could read is refused before it fills the memory.
-void refuse_endless(const Plan& plan, const ArmLimits& limits) {
-  const double slowest =
-      std::min({limits.push_speed, limits.approach_speed, limits.transit_speed});
-  double seconds = 0.0;
-  for (const PlannedPush& push : plan.pushes) {
-    const LinearPush linear = as_linear(push.push);
-    const double way = linear.travel + 4.0 * limits.clearance;
-    const double turn = std::abs(linear.turn) + std::numbers::pi;
-    seconds += 2.0 * (way / slowest + turn / limits.turn_speed) +
-               4.0 * (std::sqrt(way / limits.acceleration) +
-                      std::sqrt(turn / limits.turn_acceleration));
-  }
-  if (seconds * limits.rate <= kMostSamples) return;
-  throw BadInput(
-      text("--arm: a motion of about %.2g s at %g Hz: expected at most %.0e "
-           "samples; move faster or lower --arm-rate-hz",
-           seconds, limits.rate, kMostSamples));
+[[noreturn]] void refuse_endless(double seconds, const ArmLimits& limits) {
+  throw BadInput(text(
+      "--arm: a motion of %.2g s at %g Hz: expected at most %lld samples; move faster "
+      "or lower --arm-rate-hz",
+      seconds, limits.rate, static_cast<long long>(limits.most_samples)));
 }
 
 /// The plan itself does not depend on where a scene puts its pushers, the arm does.
@@ -87,8 +70,8 @@ void add_arm_options(CLI::App& command, ArmOptions& options) {
   };
   command
       .add_option("--arm", options.files,
-                  "write the motion of the arm: .csv (all), .tum (tool poses) or "
-                  ".yaml; may be given again")
+                  "write the motion of the arm: .csv (all), .tum or .txt (tool poses), "
+                  ".yaml or .yml; may be given again")
       ->check(is_output());
   number("--push-speed-mm-s", options.push_speed_mm, "of the hand during a push", 1e4);
   number("--approach-speed-mm-s", options.approach_speed_mm, "before and after it", 1e4);
@@ -108,32 +91,41 @@ void add_arm_options(CLI::App& command, ArmOptions& options) {
          "guard force over the greatest force expected", 100.0);
 }
 
-void check_arm_files(const ArmOptions& options) {
+void check_arm_options(const ArmOptions& options, const Scene& scene) {
+  if (options.files.empty()) return;
   for (const std::string& file : options.files) arm_format(file);
+  const ArmLimits limits = limits_of(options, scene);
+  // Whatever the plan is, unless it has nothing to do: its first approach, last retreat.
+  const double seconds = 2.0 * limits.clearance / limits.approach_speed;
+  if (seconds * limits.rate > static_cast<double>(limits.most_samples)) {
+    refuse_endless(seconds, limits);
+  }
 }
 
-std::string write_arm_files(const ArmOptions& options, const Model& model,
-                            const PlanFile& plan) {
-  if (options.files.empty()) return {};
-  if (!plan.plan.usable()) return "no plan, so no arm file is written\n";
+ArmTexts arm_texts(const ArmOptions& options, const Model& model, const PlanFile& plan) {
+  ArmTexts texts;
+  if (options.files.empty()) return texts;
+  if (!plan.plan.usable()) {
+    texts.report = "no plan, so no arm file is written\n";
+    return texts;
+  }
   const ArmLimits limits = limits_of(options, model.scene);
-  refuse_endless(plan.plan, limits);
   const ArmMotion motion = arm_motion(model, plan.plan, limits);
+  if (motion.is_too_long) refuse_endless(motion.seconds, limits);
   warn_of_crossings(model, plan.plan, motion);
-  const double seconds = motion.samples.empty() ? 0.0 : motion.samples.back().t;
-  std::string out;
   for (const int push : motion.blocked_transits) {
-    out += text(
+    texts.report += text(
         "the way to push %d is straight and not allowed: none was found that is clear of "
         "obstacles, within limits, and on which the grasp holds the object\n",
         push + 1);
   }
   for (const std::string& file : options.files) {
-    write_atomically(file, arm_to_text(plan, motion, limits, arm_format(file)));
-    out += "arm file: " + file +
-           text(" (%zu samples, %.2f s)\n", motion.samples.size(), seconds);
+    texts.files.push_back({file, arm_to_text(plan, motion, limits, arm_format(file))});
+    texts.report +=
+        "arm file: " + file +
+        text(" (%zu samples, %.2f s)\n", motion.samples.size(), motion.seconds);
   }
-  return out;
+  return texts;
 }
 
 }  // namespace prehensile::apps

@@ -14,7 +14,7 @@ class App;
 namespace prehensile::apps {
 
 struct ArmOptions {
-  std::vector<std::string> files;  ///< by extension: .csv, .tum, .yaml
+  std::vector<std::string> files;  ///< format by extension: see arm_format
   ArmLimits limits;
   double push_speed_mm = 20.0, approach_speed_mm = 30.0, transit_speed_mm = 100.0;
   double turn_speed_deg = 30.0;
@@ -23,11 +23,19 @@ struct ArmOptions {
 };
 void add_arm_options(CLI::App& command, ArmOptions& options);
 
-/// Throws BadInput for a file whose format is unknown, before anything is planned.
-void check_arm_files(const ArmOptions& options);
+/// Throws BadInput for what no plan of this scene could make right, before anything is
+/// planned: a file whose format is unknown, limits that do not suit the scene.
+void check_arm_options(const ArmOptions& options, const Scene& scene);
 
-/// Writes every file; a line for people for each.
-std::string write_arm_files(const ArmOptions& options, const Model& model,
-                            const PlanFile& plan);
+struct ArmTexts {
+  struct File {
+    std::string name, text;
+  };
+  std::vector<File> files;
+  std::string report;  ///< for people, a line for each
+};
+
+/// What goes into the files. Throws BadInput for a motion of too many samples.
+ArmTexts arm_texts(const ArmOptions& options, const Model& model, const PlanFile& plan);
 
 }  // namespace prehensile::apps

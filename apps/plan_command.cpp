@@ -69,7 +69,6 @@ Plan planned(const Options& options, const Model& model) {
 }
 
 int run(const Options& options) {
-  check_arm_files(options.arm);
   check_view_option(options.view);
   const SceneFile file = read_scene(options.scene.file, options.scene.overrides);
   if (!file.scene.goal) {
@@ -81,13 +80,16 @@ int run(const Options& options) {
                    "uncertainty: {friction: 0.2, start_position: 0.001}");
   }
 
+  check_arm_options(options.arm, file.scene);
   const Model model = prepare(file.scene);
   note_pad_plane(model, "searched in the pad plane; every push is then checked in space");
   const PlanFile written{file.scene, file.digest, planned(options, model)};
   const Plan& plan = written.plan;
   const std::string json = plan_to_json(written);
+  const ArmTexts arm =
+      arm_texts(options.arm, model, written);  // first, for it may refuse
   write_atomically(options.output, json);
-  const std::string arm = write_arm_files(options.arm, model, written);
+  for (const ArmTexts::File& one : arm.files) write_atomically(one.name, one.text);
   if (!options.view.empty())
     write_view({.page = options.view},
                {{model,
@@ -97,11 +99,11 @@ int run(const Options& options) {
                  read_object_surface(options.scene.file, options.scene.overrides)}});
   if (options.scene.json) {
     std::fputs(json.c_str(), stdout);
-    std::fputs(arm.c_str(), stderr);
+    std::fputs(arm.report.c_str(), stderr);
   } else {
     std::fputs(describe(model, plan).c_str(), stdout);
     std::printf("plan file: %s\n", options.output.c_str());
-    std::fputs(arm.c_str(), stdout);
+    std::fputs(arm.report.c_str(), stdout);
     if (!options.view.empty()) std::printf("page: %s\n", options.view.c_str());
   }
   const bool is_answer =

@@ -292,7 +292,9 @@ ArmFormat arm_format(const std::filesystem::path& file) {
   if (extension == ".csv") return ArmFormat::kCsv;
   if (extension == ".tum" || extension == ".txt") return ArmFormat::kTum;
   if (extension == ".yaml" || extension == ".yml") return ArmFormat::kYaml;
-  throw BadInput(file.string() + ": expected a name that ends in .csv, .tum or .yaml");
+  throw BadInput(file.string() +
+                 ": expected a name that ends in .csv, .tum or .yaml, "
+                 "or in .txt (TUM) or .yml");
 }
 
 std::string arm_to_text(const PlanFile& plan, const ArmMotion& motion,

@@ -21,9 +21,9 @@ ArmFormat arm_format(const std::filesystem::path& file);
 /// CSV: lines of comments ("# key: value"), a line of column names, then one line per
 /// sample: t, phase, push (from 1), grip_force, hand_{x,y,z,qx,qy,qz,qw},
 /// tool_{x,y,z,qx,qy,qz,qw}, force_{x,y,z}, moment_{x,y,z}, guard_force. Where two phases
-/// meet, each has a sample of that time. TUM: comments
-/// and "t x y z qx qy qz qw" of the tool, nothing else; samples at the same time only
-/// once. YAML: a map with the same comments as fields and a list of samples.
+/// meet, each has a sample of that time. TUM: comments and "t x y z qx qy qz qw" of the
+/// tool, nothing else; samples at the same time only once. YAML: a map with the same
+/// comments as fields and a list of samples.
 std::string arm_to_text(const PlanFile& plan, const ArmMotion& motion,
                         const ArmLimits& limits, ArmFormat format);
 

@@ -50,7 +50,12 @@ class MotionWriter {
       write_push();
       end_placement();
     }
-    set_guards();
+    motion_.seconds = steps_ / limits_.rate;
+    if (motion_.is_too_long) {
+      motion_.samples = {};
+    } else {
+      set_guards();
+    }
     return std::move(motion_);
   }
 
@@ -181,11 +186,18 @@ class MotionWriter {
 
   template <typename Path>
   void run(ArmPhase phase, double seconds, const Path& path) {
-    const int steps = std::max(1, static_cast<int>(std::ceil(seconds * limits_.rate)));
+    const double steps = std::max(1.0, std::ceil(seconds * limits_.rate));
     const std::size_t first = motion_.samples.size();
+    motion_.is_too_long |= static_cast<double>(first) + steps + 1.0 >
+                           static_cast<double>(limits_.most_samples);
+    if (motion_.is_too_long) {
+      path(1.0);  // for what it leaves behind
+      steps_ += steps;
+      return;
+    }
     for (int i = 0; i <= steps; ++i) {
       // The first sample of a phase repeats the last of the one before, under its name.
-      const double share = static_cast<double>(i) / steps;
+      const double share = i / steps;
       const double s = rest_to_rest(share);
       const HandPose pose = path(s);
       add(phase, (steps_ + i) / limits_.rate, s, pose);
@@ -287,7 +299,7 @@ class MotionWriter {
   std::vector<Run> runs_;
   PlanarPose held_;  // X_HO, at the time of the sample that is written
   int push_ = 0;
-  int steps_ = 0;  // of 1 / rate since the motion began
+  double steps_ = 0.0;  // whole ones of 1 / rate since the motion began
   double grip_ = 0.0;
   double z_ = 0.0;      // of the hand, which rolls leave off the mid-plane
   double turns_ = 0.0;  // whole turns that keep the angle of the hand continuous

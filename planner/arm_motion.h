@@ -10,6 +10,7 @@
 /// W as in the scene: z along the closing direction, the object's mid-plane at z = 0.
 #pragma once
 
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -31,7 +32,9 @@ struct ArmLimits {
   double clearance = 0.03;         ///< [m] from the pusher before and after a placement
   double grip_seconds = 0.5;       ///< [s] that a change of the grip force takes
   double rate = 100.0;             ///< [Hz] of the samples; each phase ends on a sample
-  double guard_factor = 1.5;       ///< guard over greatest expected load, see ArmSample
+  /// Longer motions are only counted, not sampled.
+  std::int64_t most_samples = 1'000'000;
+  double guard_factor = 1.5;  ///< guard over greatest expected load, see ArmSample
 };
 
 enum class ArmPhase {
@@ -65,7 +68,9 @@ struct ArmSample {
 };
 
 struct ArmMotion {
-  std::vector<ArmSample> samples;
+  std::vector<ArmSample> samples;  ///< none where they would be more than most_samples
+  double seconds = 0.0;            ///< [s] of the whole
+  bool is_too_long = false;
   /// Indices of pushes before which no transit was found on which hand and object keep
   /// clear of obstacles, the hand within its limits and the object in its place; a
   /// straight one is written.

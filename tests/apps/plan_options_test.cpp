@@ -120,6 +120,7 @@ TEST(PlanOptions, ArmFilesAreWrittenByExtension) {
   const Outcome endless = planned(folder, slow);
   EXPECT_EQ(endless.exit_code, 2);
   EXPECT_NE(endless.err.find("--arm-rate-hz"), std::string::npos) << endless.err;
+  EXPECT_EQ(read_text(folder.path("slow.csv")), "");
   const std::string none = folder.path("none.csv").string();
   EXPECT_EQ(planned(folder, kScene + " --set goal.x=0.3 --arm " + none).exit_code, 1);
   EXPECT_EQ(read_text(none), "");
@@ -140,6 +141,28 @@ TEST(PlanOptions, AnArmThatCarriesTheObjectThroughAPusherIsWarnedOf) {
             0U)
       << through.err;
   EXPECT_EQ(std::count(through.err.begin(), through.err.end(), '\n'), 1) << through.err;
+}
+
+/// What refuses the motion leaves no plan behind either, and what no plan could make
+/// right is refused before the search.
+TEST(PlanOptions, ArmLimitsAreRefusedBeforeAnythingIsWritten) {
+  const Folder folder;
+  const std::string arm = " --arm " + folder.path("arm.csv").string();
+  const std::string endless = "expected at most 1000000 samples";
+  const auto refuse = [&](const std::string& arguments, const std::string& words) {
+    const Outcome outcome = planned(folder, arguments + arm);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(folder.path("plan.json"))) << arguments;
+    EXPECT_FALSE(std::filesystem::exists(folder.path("arm.csv"))) << arguments;
+  };
+  refuse(kScene + " --push-speed-mm-s 0.001 --arm-rate-hz 1000", endless);
+  refuse(kScene + " --transit-speed-mm-s 0.001 --clearance-mm 0.001", endless);
+  refuse(kScene + " --turn-speed-deg-s 0.001 --arm-rate-hz 1000", endless);
+  // Not even a budget of one would end in time, if it were searched.
+  const std::string unsolved = " --set goal.x=0.3 --budget 1000000000";
+  refuse(kScene + unsolved + " --approach-speed-mm-s 0.001", endless);
+  refuse("problems/confined/post_in_the_way.yaml --clearance-mm 900", "obstacles.approach");
 }
 
 TEST(CheckSamples, AreTheSameForAnyNumberOfJobs) {

@@ -298,6 +298,25 @@ TEST(ArmMotion, ChangesTheGripAtThePusher) {
   EXPECT_GT(changes, 0);
 }
 
+/// What is refused for its length is counted as it would be sampled.
+TEST(ArmMotion, CountsWhatIsTooLong) {
+  for (const Scene& scene : scenes_with_grips()) {
+    const Model model = prepare(scene);
+    const Plan plan = plan_regrasp(model);
+    ArmLimits limits;
+    const ArmMotion whole = arm_motion(model, plan, limits);
+    const auto samples = static_cast<std::int64_t>(whole.samples.size());
+    EXPECT_EQ(whole.seconds, whole.samples.back().t);
+    limits.most_samples = samples;
+    EXPECT_EQ(arm_motion(model, plan, limits).samples.size(), whole.samples.size());
+    limits.most_samples = samples - 1;
+    const ArmMotion counted = arm_motion(model, plan, limits);
+    EXPECT_TRUE(counted.is_too_long);
+    EXPECT_TRUE(counted.samples.empty());
+    EXPECT_EQ(counted.seconds, whole.seconds) << scene.name;
+  }
+}
+
 TEST(ArmMotion, NothingToDoIsNoMotion) {
   Scene scene = published_square(0);
   scene.goal =

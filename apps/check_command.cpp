@@ -103,7 +103,9 @@ int run(const Options& options) {
   if (options.samples > 0) {
     const SampleOptions how = sampling(options, model);
     const SampleReport report = sample_plan(model, file.plan, how);
-    is_reached = report.successes >= options.at_least * options.samples;
+    // A share that is typed is the nearest number to it, as is the quotient.
+    is_reached =
+        static_cast<double>(report.successes) / options.samples >= options.at_least;
     json["samples"] = to_json(report, how);
     json["samples"]["at_least"] = options.at_least;
     json["samples"]["is_reached"] = is_reached;

@@ -22,7 +22,9 @@ constexpr double kPosition = 1e-3;                         // [m]
 constexpr double kAngle = 1.0 * std::numbers::pi / 180.0;  // [rad]
 
 bool agrees(const mjcf::MujocoPush& push) {
-  return push.trouble.empty() && push.position_error <= kPosition &&
+  // Without a touch of the pusher there was no push that could agree.
+  const bool is_untouched = push.force_error <= -1.0;
+  return push.trouble.empty() && !is_untouched && push.position_error <= kPosition &&
          push.position_added <= kPosition && push.angle_error <= kAngle &&
          push.angle_added <= kAngle;
 }
@@ -69,7 +71,7 @@ void check_mujoco_options(const MujocoCheck& options) {
 void check_carried(const MujocoCheck& options, const Model& model, const Plan& plan) {
   if (!options.wanted) return;
   try {
-    mjcf::stage(model, plan.pushes);
+    mjcf::stage(model, plan.pushes, 1e-3 * options.speed_mm_s);
   } catch (const mjcf::NotCarried& error) {
     throw BadInput(std::string("--mujoco: ") + error.what());
   }

@@ -39,7 +39,7 @@ mjcf::MujocoReplay second_opinion(const Model& model, const Plan& plan,
                                   const MujocoCheck& options);
 
 /// Every push adds less than 1 mm and 1 deg to the difference from the plan, so does the
-/// whole, and MuJoCo had no trouble.
+/// whole, the pusher touched, and MuJoCo had no trouble.
 bool agrees(const mjcf::MujocoReplay& replay);
 
 std::string describe(const Model& model, const Plan& plan,

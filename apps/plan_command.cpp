@@ -63,7 +63,8 @@ Plan planned(const Options& options, const Model& model) {
   const bool has_answer = plan.status != PlanStatus::kStopped &&
                           plan.status != PlanStatus::kUnsupported && !plan.stopped_early;
   if (needs_advice && has_answer && !options.no_advice) {
-    plan.explanation = explain(model, plan, plan_options);
+    plan.explanation =
+        explain(model, plan, plan_options, {.margin_factor = options.margin});
   }
   return plan;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <mujoco/mujoco.h>
 #include <mutex>
@@ -124,20 +125,22 @@ class Simulation {
   template <typename Path>
   double follow(double seconds, const Path& hand, double unseen = 0.0) {
     const double dt = model_->opt.timestep;
-    const int steps = static_cast<int>(std::ceil(seconds / dt));
-    const int skipped = std::min(steps, static_cast<int>(std::lround(unseen / dt)));
+    const auto steps = std::max<std::int64_t>(1, std::llround(std::ceil(seconds / dt)));
+    const std::int64_t skipped =
+        std::min<std::int64_t>(steps - 1, std::llround(unseen / dt));
     const double averaged = std::max(kWindow, kWindowShare * seconds);
-    const int window =
-        std::min(steps - skipped, static_cast<int>(std::lround(averaged / dt)));
+    const std::int64_t window =
+        std::min<std::int64_t>(steps - skipped, std::llround(averaged / dt));
     Vec3 sum = Vec3::Zero();
     double peak = 0.0;
-    for (int k = 0; k < steps; ++k) {
-      lead(hand(k * dt), hand((k + 1) * dt));
+    for (std::int64_t k = 0; k < steps; ++k) {
+      const auto done = static_cast<double>(k);
+      lead(hand(done * dt), hand((done + 1.0) * dt));
       mj_step(model_.get(), data_.get());
       if (k < skipped) continue;
       sum += push_force();
       if ((k + 1 - skipped) % window != 0) continue;
-      peak = std::max(peak, sum.norm() / window);
+      peak = std::max(peak, sum.norm() / static_cast<double>(window));
       sum.setZero();
     }
     return peak;

@@ -20,6 +20,8 @@ constexpr double kSoft = 1e-2, kStiff = 1e-4;
 constexpr double kSamePsi = 1e-6;         // [rad]
 constexpr double kLeastLever = 5e-3;      // [m] of turns of small pads
 constexpr double kSamePoint = 1e-4;       // [m]
+constexpr double kApproach = 1e-3;        // [m] of each push, about
+constexpr double kMostSeconds = 1e5;      // [s] of all pushes: a day of simulation
 constexpr std::size_t kMostCorners = 16;  // of a face that pads leave
 constexpr int kLooks = 20;                // at a push for overhang
 
@@ -160,6 +162,18 @@ void place_points(Stage& stage) {
   });
 }
 
+/// A speed at which no simulation would come to an end.
+void check_seconds(const Stage& stage) {
+  double seconds = 0.0;
+  for (const PlannedPush& planned : stage.pushes) {
+    seconds += seconds_of(stage, planned) + kApproach / stage.speed;
+  }
+  if (seconds <= kMostSeconds) return;
+  throw NotCarried("a speed of " + number(1e3 * stage.speed) +
+                   " mm/s, at which the pushes take " + number(seconds) +
+                   " s: expected at most " + number(kMostSeconds) + " s");
+}
+
 }  // namespace
 
 HandPose hand_at(const Model& model, const PlannedPush& planned, double s, double gap) {
@@ -227,6 +241,7 @@ Stage stage(const Model& model, const std::vector<PlannedPush>& pushes, double s
   result.stiffness = least / (shifts ? kStiff : kSoft);
   result.speed = result.in_space ? kSpeedInSpace : kSpeed;
   if (speed > 0.0) result.speed = speed;
+  check_seconds(result);
   return result;
 }
 

@@ -51,7 +51,8 @@ struct Stage {
   double speed = 0.0;         ///< [m/s] of the pad point that rubs most
 };
 
-/// `speed` 0: 2 mm/s, 0.2 mm/s where loads shift. Throws NotCarried.
+/// `speed` 0: 2 mm/s, 0.2 mm/s where loads shift. Throws NotCarried, also for a speed at
+/// which the pushes would take for ever.
 Stage stage(const Model& model, const std::vector<PlannedPush>& pushes,
             double speed = 0.0);
 

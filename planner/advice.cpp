@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <numbers>
 
 #include "primitives/uncertainty.h"
@@ -21,12 +22,18 @@ std::string number(double value) {
   return text;
 }
 
+/// As it is read back from what `number` writes: what is named is what was tried.
+double written(double value) { return std::strtod(number(value).c_str(), nullptr); }
+
 /// Tries changed scenes and keeps those that can be planned.
 class Adviser {
  public:
   Adviser(const Model& model, const Plan& plan, const PlanOptions& options,
           const AdviceOptions& advice)
-      : model_(model), plan_(plan), options_(options) {
+      : model_(model),
+        plan_(plan),
+        options_(options),
+        margin_factor_(advice.margin_factor) {
     options_.budget = std::min(options.budget, advice.budget);
     options_.nominal_if_needed = false;
     options_.prove = false;
@@ -69,10 +76,13 @@ class Adviser {
     for (const double factor : {0.75, 0.5, 0.25}) {
       ProposedChange change{"a margin of " + number(100.0 * factor) +
                             " % of the one asked for"};
+      Margin margin = wanted_.scaled(factor);
       if (options_.promise == Promise::kMargin) {
-        change.option = "--margin " + number(factor);
+        const double of_usual = written(factor * margin_factor_);
+        change.option = "--margin " + number(of_usual);
+        margin = wanted_.scaled(of_usual / margin_factor_);
       }
-      if (works(model_.scene, wanted_.scaled(factor), std::move(change))) return;
+      if (works(model_.scene, margin, std::move(change))) return;
     }
   }
 
@@ -81,7 +91,8 @@ class Adviser {
     for (std::size_t i = 0; i < pushers.size(); ++i) {
       const double from = pushers[i].friction;
       for (const double factor : {1.25, 1.5, 2.0, 3.0}) {
-        const double to = std::max(factor * from, from == 0.0 ? 0.1 * factor : 0.0);
+        const double to =
+            written(std::max(factor * from, from == 0.0 ? 0.1 * factor : 0.0));
         if (to > kMostFriction) break;
         Scene scene = model_.scene;
         scene.pushers[i].friction = to;
@@ -97,10 +108,10 @@ class Adviser {
     const double from = model_.scene.gripper.grip_force;
     for (const double factor : {1.25, 1.5, 2.0, 4.0}) {
       Scene scene = model_.scene;
-      scene.gripper.grip_force = factor * from;
-      ProposedChange change{"grip force " + number(from) + " N -> " +
-                            number(factor * from) + " N"};
-      change.option = "--set gripper.grip_force=" + number(factor * from);
+      const double to = written(factor * from);
+      scene.gripper.grip_force = to;
+      ProposedChange change{"grip force " + number(from) + " N -> " + number(to) + " N"};
+      change.option = "--set gripper.grip_force=" + number(to);
       if (works(scene, std::move(change))) return true;
     }
     return false;
@@ -115,7 +126,7 @@ class Adviser {
     const std::string low = number(0.5 * own);
     const std::string high = number(4.0 * own);
     Scene scene = model_.scene;
-    scene.gripper.grip_range = Vec2(0.5 * own, 4.0 * own);
+    scene.gripper.grip_range = Vec2(written(0.5 * own), written(4.0 * own));
     ProposedChange change{"a grip force for each push, of " + low + " to " + high + " N"};
     change.option = "--set gripper.grip_range=[" + low + ',' + high + ']';
     works(scene, std::move(change));
@@ -125,7 +136,7 @@ class Adviser {
     const Goal& goal = *model_.scene.goal;
     for (const double factor : {2.0, 5.0, 10.0, 20.0}) {
       Scene scene = model_.scene;
-      const double to = factor * goal.position_tolerance;
+      const double to = written(factor * goal.position_tolerance);
       scene.goal->position_tolerance = to;
       ProposedChange change{"position tolerance of the goal " +
                             number(1e3 * goal.position_tolerance) + " mm -> " +
@@ -191,9 +202,10 @@ class Adviser {
       ProposedChange change{"limits on theta wider by " + number(degrees) + " deg"};
       const auto widen = [&](std::optional<double>& limit, double by, const char* field) {
         if (!limit) return;
-        *limit += by * kDegree;
+        const double to = written(*limit / kDegree + by);
+        *limit = to * kDegree;
         change.option += change.option.empty() ? "--set " : " --set ";
-        change.option += std::string(field) + '=' + number(*limit / kDegree);
+        change.option += std::string(field) + '=' + number(to);
       };
       widen(scene.limits->theta_low, -degrees, "limits.theta_low_deg");
       widen(scene.limits->theta_high, degrees, "limits.theta_high_deg");
@@ -251,6 +263,7 @@ class Adviser {
   const Model& model_;
   const Plan& plan_;
   PlanOptions options_;
+  double margin_factor_;
   Margin wanted_;
   std::vector<ProposedChange> changes_;
 };

@@ -63,6 +63,24 @@ TEST(CheckMujoco, RefusesWhatItCannotCarry) {
       << seen.err;
 }
 
+/// A speed at which the simulation would never end, and none that would take no step.
+TEST(CheckMujoco, RefusesASpeedThatTakesForEver) {
+  const Folder folder;
+  const std::string plan = folder.path("plan.json").string();
+  const std::string goal =
+      "plan problems/paper/slide.yaml --set goal.x=-0.011 --no-advice -o ";
+  ASSERT_EQ(run_program(goal + plan).exit_code, 0);
+  for (const char* speed : {"1e-300", "1e-9", "1e-5"}) {
+    const Outcome seen =
+        run_program("check " + plan + " --mujoco --mujoco-speed-mm-s " + speed);
+    EXPECT_EQ(seen.exit_code, 2);
+    EXPECT_EQ(seen.out, "");
+    EXPECT_TRUE(holds(seen.err, PREHENSILE_WITH_MUJOCO ? "expected at most 100000 s"
+                                                       : "this build has no MuJoCo"))
+        << seen.err;
+  }
+}
+
 TEST(CheckMujoco, GivesASecondOpinion) {
   const Folder folder;
   const std::string plan = folder.path("plan.json").string();

@@ -100,6 +100,24 @@ TEST(PlanOptions, TheNamedOptionHelps) {
               1e-9);
 }
 
+/// So does the margin, which is a factor on the usual one whatever was asked for.
+TEST(PlanOptions, TheNamedMarginHelps) {
+  const Folder folder;
+  const std::string scene = "problems/slide_then_pivot.yaml";
+  for (const std::string asked : {"0.7", "1"}) {
+    planned(folder, scene + " --margin " + asked);
+    ASSERT_EQ(plan_of(folder).at("promise"), "nominal only");
+    const json change = plan_of(folder).at("explanation").at("changes").at(0);
+    const std::string option = change.at("option");
+    ASSERT_EQ(option.rfind("--margin ", 0), 0u) << option;
+    EXPECT_LT(std::stod(option.substr(9)), std::stod(asked));
+    ASSERT_EQ(planned(folder, scene + ' ' + option).exit_code, 0);
+    EXPECT_EQ(plan_of(folder).at("promise"), "margin") << option;
+    EXPECT_NEAR(plan_of(folder).at("cost").get<double>(), change.at("cost").get<double>(),
+                1e-9);
+  }
+}
+
 TEST(PlanOptions, ArmFilesAreWrittenByExtension) {
   const Folder folder;
   std::string files;
@@ -162,7 +180,8 @@ TEST(PlanOptions, ArmLimitsAreRefusedBeforeAnythingIsWritten) {
   // Not even a budget of one would end in time, if it were searched.
   const std::string unsolved = " --set goal.x=0.3 --budget 1000000000";
   refuse(kScene + unsolved + " --approach-speed-mm-s 0.001", endless);
-  refuse("problems/confined/post_in_the_way.yaml --clearance-mm 900", "obstacles.approach");
+  refuse("problems/confined/post_in_the_way.yaml --clearance-mm 900",
+         "obstacles.approach");
 }
 
 TEST(CheckSamples, AreTheSameForAnyNumberOfJobs) {
@@ -204,6 +223,29 @@ TEST(CheckSamples, ExitCodeFollowsTheShareAskedFor) {
   EXPECT_EQ(run_program(check + " --at-least 0.5").exit_code, 2);
   EXPECT_EQ(run_program(check + " --samples 0").exit_code, 2);
   EXPECT_EQ(run_program(check + " --samples 9 --vary nonsense=1").exit_code, 2);
+}
+
+/// A share of 57 of 100 is 0.57, though 0.57 * 100 is a little more than 57.
+TEST(CheckSamples, AShareIsReachedExactly) {
+  const Folder folder;
+  ASSERT_EQ(planned(folder, kScene).exit_code, 0);
+  int compared = 0;
+  for (int seed = 1; seed <= 40 && compared < 3; ++seed) {
+    const std::string check =
+        "check " + folder.path("plan.json").string() +
+        " --samples 100 --vary friction=0.9,grasp_mm=5 --json --seed " +
+        std::to_string(seed);
+    const auto successes = [](const Outcome& out) {
+      return json::parse(out.out).at("samples").at("success").at("count").get<int>();
+    };
+    const int count = successes(run_program(check));
+    if (0.01 * count * 100 <= count) continue;  // not one that rounds up
+    ++compared;
+    const std::string share = (count < 10 ? "0.0" : "0.") + std::to_string(count);
+    EXPECT_EQ(run_program(check + " --at-least " + share).exit_code, 0) << share;
+    EXPECT_EQ(run_program(check + " --at-least " + share + "01").exit_code, 1) << share;
+  }
+  EXPECT_GT(compared, 0);
 }
 
 TEST(CheckSamples, UseTheDistributionOfTheScene) {

@@ -181,7 +181,7 @@ std::string to_yaml(const std::vector<Note>& notes, const ArmMotion& motion) {
 class CsvReader {
  public:
   CsvReader(const std::string& text, std::string label)
-      : text_(text), label_(std::move(label)) {}
+      : text_(internal::without_mark(text)), label_(std::move(label)) {}
 
   ArmMotion read() {
     ArmMotion motion;
@@ -201,6 +201,7 @@ class CsvReader {
       motion.samples.push_back(sample);
     }
     if (!has_columns) refuse("no samples: expected the columns " + std::string(kColumns));
+    if (!motion.samples.empty()) motion.seconds = motion.samples.back().t;
     return motion;
   }
 
@@ -212,7 +213,7 @@ class CsvReader {
   bool next(std::string& line) {
     if (at_ >= text_.size()) return false;
     const std::size_t end = std::min(text_.find('\n', at_), text_.size());
-    line = text_.substr(at_, end - at_);
+    line = std::string(text_.substr(at_, end - at_));
     if (!line.empty() && line.back() == '\r') line.pop_back();
     at_ = end + 1;
     ++line_;
@@ -278,7 +279,7 @@ class CsvReader {
     return pose;
   }
 
-  const std::string& text_;
+  std::string_view text_;
   std::string label_;
   std::vector<std::string> cells_;
   std::size_t at_ = 0;

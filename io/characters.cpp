@@ -24,6 +24,12 @@ std::size_t character_length(std::string_view text, std::size_t at) {
 
 }  // namespace
 
+std::string_view without_mark(std::string_view text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kMark)) text.remove_prefix(kMark.size());
+  return text;
+}
+
 void check_characters(const std::string& text, Faults& faults) {
   int line = 1;
   for (std::size_t at = 0; at < text.size();) {

@@ -54,6 +54,9 @@ struct Entry {
 /// Deeper nesting than any file of ours needs is refused while it is read.
 inline constexpr int kDeepest = 12;
 
+/// Likewise more keys in one map, each of which is compared with all the others.
+inline constexpr int kMostKeys = 1000;
+
 /// The number that the whole of `text` spells, NaN and infinity refused.
 bool to_number(std::string_view text, double& value);
 
@@ -119,6 +122,9 @@ std::string digest_of(const std::string& text);
 
 /// Refuses bytes that are not UTF-8, and control characters.
 void check_characters(const std::string& text, Faults& faults);
+
+/// What a text holds behind the byte order mark that some editors write first.
+std::string_view without_mark(std::string_view text);
 
 /// Reads a regular file of at most `limit` bytes; throws BadInput.
 std::string read_text(const std::filesystem::path& file, std::size_t limit);

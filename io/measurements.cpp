@@ -95,7 +95,7 @@ std::vector<std::string> cells_of(std::string_view line, int number, Faults& fau
 class Reader {
  public:
   Reader(const std::string& text, const std::string& label, const Model& model)
-      : rest_(text), faults_(label), model_(model) {}
+      : rest_(internal::without_mark(text)), faults_(label), model_(model) {}
 
   Measurements read() {
     read_header();

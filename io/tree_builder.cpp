@@ -40,6 +40,10 @@ void TreeBuilder::close() {
 
 void TreeBuilder::key(const std::string& key, const Place& place) {
   Frame& frame = open_.back();
+  if (++frame.keys > kMostKeys) {
+    faults_.fail(place, path(),
+                 "a map of more keys: expected at most " + std::to_string(kMostKeys));
+  }
   const Value* before = frame.value.find(key);
   if (before) {
     faults_.add(place, join(path(), key),

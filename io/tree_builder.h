@@ -29,6 +29,7 @@ class TreeBuilder {
     Value value;
     std::optional<Entry> pending;  // its value comes next
     bool skips = false;            // the pending key was there before
+    int keys = 0;                  // of this map so far, doubled ones too
   };
   bool key_is_due() const;
   void put(Value value);

@@ -49,6 +49,8 @@ TEST(ArmFile, CsvReturnsTheMotionExactly) {
   const Written file = written(ArmFormat::kCsv);
   const ArmMotion read = parse_arm_csv(file.text, "arm.csv");
   ASSERT_EQ(read.samples.size(), file.motion.samples.size());
+  EXPECT_EQ(read.seconds, file.motion.seconds);
+  EXPECT_EQ(fault_of("\xEF\xBB\xBF" + file.text), "");  // as some editors save it
   for (std::size_t i = 0; i < read.samples.size(); ++i) {
     const ArmSample& a = read.samples[i];
     const ArmSample& b = file.motion.samples[i];
@@ -100,6 +102,7 @@ TEST(ArmFile, FormatsByExtension) {
   EXPECT_EQ(arm_format("a/b.csv"), ArmFormat::kCsv);
   EXPECT_EQ(arm_format("b.tum"), ArmFormat::kTum);
   EXPECT_EQ(arm_format("b.yml"), ArmFormat::kYaml);
+  EXPECT_EQ(arm_format("b.txt"), ArmFormat::kTum);
   EXPECT_THROW(arm_format("b.json"), BadInput);
   EXPECT_THROW(arm_format("b"), BadInput);
 }

@@ -154,6 +154,25 @@ TEST(BrokenFiles, DeepNestingIsRefused) {
   }
 }
 
+/// Every key is compared with all others of its map.
+TEST(BrokenFiles, MapsOfTooManyKeysAreRefused) {
+  for (const bool doubled : {false, true}) {
+    std::string yaml = "version: 1\nobject:\n";
+    std::string json = "{";
+    for (int i = 0; i < 40'000; ++i) {
+      const std::string key = "k" + std::to_string(doubled ? 0 : i);
+      yaml += "  " + key + ": 0\n";
+      json += "\"" + key + "\": 0,\n";
+    }
+    json += "\"version\": 1}";
+    const std::string what = "a map of more keys: expected at most 1000";
+    const std::string scene = message_of([&] { parse_scene(yaml, "s"); });
+    EXPECT_NE(scene.find("s:1003: object: " + what), std::string::npos) << scene;
+    const std::string plan = message_of([&] { parse_plan(json, "p"); });
+    EXPECT_NE(plan.find("p:1001: " + what), std::string::npos) << plan;
+  }
+}
+
 TEST(BrokenFiles, PlansMayNotBeEndless) {
   const fs::path plan = kBroken / "values/zero_rate_push.json";
   std::string text = text_of(plan);

@@ -58,6 +58,15 @@ TEST(Measurements, ReadsPushes) {
   EXPECT_FALSE(data.pushes[1].push_force.has_value());
 }
 
+/// Spreadsheets save a byte order mark first, which nobody sees.
+TEST(Measurements, ReadsOverAByteOrderMark) {
+  const std::string mark = "\xEF\xBB\xBF";
+  EXPECT_EQ(error_of(mark + kHeader + '\n' + kRow + '\n'), "no error");
+  EXPECT_EQ(error_of(mark + "# made by hand\n" + kHeader + '\n' + kRow + '\n'),
+            "no error");
+  EXPECT_NE(error_of(mark + mark + kHeader + '\n' + kRow + '\n'), "no error");
+}
+
 TEST(Measurements, ReadsSlipForces) {
   const Measurements data =
       parse_measurements("grip_force_N,slip_force_N,slip_torque_Nm\n5,4.6,\n10,,0.06\n",

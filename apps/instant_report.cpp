@@ -1,5 +1,7 @@
 #include "apps/instant_report.h"
 
+#include <cmath>
+
 #include "apps/json_number.h"
 #include "apps/table.h"
 
@@ -251,8 +253,9 @@ std::string describe(const InstantReport& report) {
     if (now.finger_count > 0) out += finger_table(report);
   }
   out += describe(report.sensitivities);
-  out += text("solver %s: %d iterations, residual %.1e\n", report.solver.c_str(),
-              now.iterations, now.residual);
+  out += text("solver %s: %d iterations", report.solver.c_str(), now.iterations);
+  if (std::isfinite(now.residual)) out += text(", residual %.1e", now.residual);
+  out += '\n';
   if (!report.why_this_solver.empty()) {
     out += "  chosen because " + report.why_this_solver + '\n';
   }

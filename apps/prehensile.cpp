@@ -138,7 +138,8 @@ int main(int argc, char** argv) {
   try {
     remember_command_line(argc, argv);
     const int code = run(argc, argv);
-    if (std::fflush(stdout) != 0) {
+    // Also what failed in an earlier flush, after which this one has nothing to do.
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
       std::fprintf(stderr, "prehensile: cannot write the output\n");
       return kInternalFault;
     }

@@ -148,7 +148,10 @@ struct Plan {
   bool usable() const {
     return status == PlanStatus::kReachedGoal || status == PlanStatus::kNothingToDo;
   }
-  double gap() const { return (cost - lower_bound) / lower_bound; }
+  /// Of the cost over its bound; 0 where it is the bound, be that 0 as of nothing to do.
+  double gap() const {
+    return cost == lower_bound ? 0.0 : (cost - lower_bound) / lower_bound;
+  }
   bool rolls() const;  ///< some push is a roll
 };
 

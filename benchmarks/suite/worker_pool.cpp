@@ -69,9 +69,10 @@ void set_limits(const ProcessLimits& limits) {
 void become_worker(pid_t parent, const ProcessLimits& limits) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);  // it died before
-  // Ctrl-C goes to all processes of a terminal: what runs is for the parent to decide.
+  // Ctrl-C goes to all processes of a terminal, and a batch system's SIGTERM to all of a
+  // job: what runs is for the parent to decide, and no run ends as if by its own fault.
   std::signal(SIGINT, SIG_IGN);
-  std::signal(SIGTERM, SIG_DFL);
+  std::signal(SIGTERM, SIG_IGN);
   std::signal(SIGPROF, SIG_DFL);
   const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
   if (nowhere >= 0) {

@@ -55,6 +55,22 @@ TEST(WorkerPool, SurvivesACrash) {
   EXPECT_EQ(ending.signal, SIGSEGV);
 }
 
+/// They come to whole groups of processes, of which the parent decides what ends.
+TEST(WorkerPool, RequestsToStopAreNotForTheWork) {
+  for (const int number : {SIGINT, SIGTERM}) {
+    const Ending work = end_of({}, [number]() -> std::string {
+      ::raise(number);
+      return "done";
+    });
+    EXPECT_EQ(work.kind, Ending::Kind::kDone) << number;
+    EXPECT_EQ(work.text, "done");
+    const Ending program =
+        end_of({}, "kill -" + std::to_string(number) + " $$; echo done");
+    EXPECT_EQ(program.kind, Ending::Kind::kDone) << number;
+    EXPECT_EQ(program.text, "done\n");
+  }
+}
+
 TEST(WorkerPool, NoticesAnEarlyExit) {
   const Ending ending = end_of({}, []() -> std::string { ::_exit(3); });
   EXPECT_EQ(ending.kind, Ending::Kind::kCrashed);

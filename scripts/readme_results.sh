@@ -19,7 +19,7 @@ table() {
       kind = $column["family"] ~ /_random$|^(angle|obstacles)_/ ? "random" : "made"
       if (!(group in seen)) { seen[group] = 1; order[++groups] = group }
       n[group, kind] += $column["runs"]; solved[group, kind] += $column["solved"]
-      infeasible[group, kind] += $column["infeasible"]
+      infeasible[group, kind] += $column["infeasible"]; nominal[group, kind] += $column["nominal_only"]
       all += $column["runs"]
       ms = 1000 * $column["time_median"]
       if (!(group in low) || ms < low[group]) low[group] = ms
@@ -38,18 +38,20 @@ table() {
     }
     function share(group,   k, m) {
       m = n[group, "made"]; k = solved[group, "made"]
-      if (m == 0) return "| | |"
-      return sprintf("| %d of %d | %.1f-%.1f %% |", k, m, wilson(k, m, -1), wilson(k, m, 1))
+      if (m == 0) return "| | | |"
+      return sprintf("| %d of %d | %.1f-%.1f %% | %d |", k, m, wilson(k, m, -1), wilson(k, m, 1),
+                     nominal[group, "made"])
     }
     function others(group,   m) {
       m = n[group, "random"]
-      if (m == 0) return " | | |"
-      return sprintf(" %d of %d | %d | %d |", solved[group, "random"], m, infeasible[group, "random"],
-                     m - solved[group, "random"] - infeasible[group, "random"])
+      if (m == 0) return " | | | |"
+      return sprintf(" %d of %d | %d | %d | %d |", solved[group, "random"], m, nominal[group, "random"],
+                     infeasible[group, "random"], m - solved[group, "random"] - infeasible[group, "random"])
     }
     END {
-      print "| problems | solved | 95 % | random goals: solved | proved impossible | open | median ms |"
-      print "|---|---|---|---|---|---|---|"
+      print "| problems | solved | 95 % | nominal only | random goals: solved | nominal only" \
+            " | proved impossible | open | median ms |"
+      print "|---|---|---|---|---|---|---|---|---|"
       for (i = 1; i <= groups; ++i) {
         group = order[i]
         time = sprintf("%.2g", low[group])

@@ -65,9 +65,14 @@ class Running {
     for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
       posix_spawn_file_actions_addopen(&quiet, number, "/dev/null", O_RDWR, 0);
     }
+    posix_spawnattr_t apart;  // in a group of processes of its own
+    posix_spawnattr_init(&apart);
+    posix_spawnattr_setflags(&apart, POSIX_SPAWN_SETPGROUP);
+    posix_spawnattr_setpgroup(&apart, 0);
     const int failed =
-        posix_spawn(&process_, pointers[0], &quiet, nullptr, pointers.data(), environ);
+        posix_spawn(&process_, pointers[0], &quiet, &apart, pointers.data(), environ);
     posix_spawn_file_actions_destroy(&quiet);
+    posix_spawnattr_destroy(&apart);
     if (failed != 0) throw std::runtime_error("cannot start the program");
   }
   Running(const Running&) = delete;
@@ -80,6 +85,8 @@ class Running {
   }
 
   void signal(int number) const { ::kill(process_, number); }
+  /// Its runs as well, as terminals and batch systems do.
+  void signal_group(int number) const { ::kill(-process_, number); }
   bool has_ended() {
     int status = 0;
     if (process_ < 0 || ::waitpid(process_, &status, WNOHANG) == 0) return process_ < 0;
@@ -145,7 +152,7 @@ TEST_F(BenchmarkCommand, RunsAndReports) {
   for (const char* part :
        {"id=\"success-chart\"", "id=\"time-chart\"", "id=\"profile-chart\"",
         "id=\"cost-chart\"", "id=\"gap-chart\"", "id=\"failures\"", "id=\"pairs\"",
-        "id=\"origin\"", "families:"}) {
+        "id=\"origin\"", "families:", ">nominal only</th>"}) {
     EXPECT_NE(page.find(part), std::string::npos) << part;
   }
   EXPECT_EQ(plot::testing::fault_of_svg(page.substr(page.find('\n') + 1)), "");
@@ -276,6 +283,25 @@ TEST_F(BenchmarkCommand, CtrlCKeepsTheRows) {
   const Outcome out = benchmark(at("suite.yaml") + " -o " + at("a") + " --resume");
   EXPECT_EQ(out.exit_code, 0) << out.err;
   EXPECT_EQ(rows_in(at("a")), kRuns);
+}
+
+/// A run that was going on is not done: it is no row, and is done when it is resumed.
+TEST_F(BenchmarkCommand, AStopOfTheWholeGroupLeavesNoFalseRow) {
+  ASSERT_EQ(benchmark(at("suite.yaml") + " -o " + at("whole")).exit_code, 0);
+  for (const int number : {SIGTERM, SIGINT, SIGTERM, SIGTERM, SIGINT, SIGTERM}) {
+    Running running({"benchmark", at("suite.yaml"), "-o", at("a"), "--resume"});
+    while (running.children().empty() && !running.has_ended()) sleep_for(1e-4);
+    running.signal_group(number);
+    running.wait();
+  }
+  ASSERT_EQ(benchmark(at("suite.yaml") + " -o " + at("a") + " --resume").exit_code, 0);
+  const suite::Results stopped = suite::read_results(at("a"));
+  const suite::Results whole = suite::read_results(at("whole"));
+  ASSERT_EQ(stopped.rows.size(), whole.rows.size());
+  for (std::size_t i = 0; i < whole.rows.size(); ++i) {
+    EXPECT_EQ(stopped.rows[i].record.status, whole.rows[i].record.status)
+        << stopped.rows[i].record.message;
+  }
 }
 
 /// Kills the program, one of its runs, or both, at random times until it gets through.

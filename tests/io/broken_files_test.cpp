@@ -166,10 +166,13 @@ TEST(BrokenFiles, MapsOfTooManyKeysAreRefused) {
     }
     json += "\"version\": 1}";
     const std::string what = "a map of more keys: expected at most 1000";
+    // Of doubled ones the first twenty are listed, and all counted.
+    const std::string of_scene = doubled ? "s: and 980 more" : "s:1003: object: " + what;
+    const std::string of_plan = doubled ? "p: and 980 more" : "p:1001: " + what;
     const std::string scene = message_of([&] { parse_scene(yaml, "s"); });
-    EXPECT_NE(scene.find("s:1003: object: " + what), std::string::npos) << scene;
+    EXPECT_NE(scene.find(of_scene), std::string::npos) << scene;
     const std::string plan = message_of([&] { parse_plan(json, "p"); });
-    EXPECT_NE(plan.find("p:1001: " + what), std::string::npos) << plan;
+    EXPECT_NE(plan.find(of_plan), std::string::npos) << plan;
   }
 }
 

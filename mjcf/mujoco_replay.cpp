@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <memory>
 #include <mujoco/mujoco.h>
 #include <mutex>
@@ -125,15 +124,13 @@ class Simulation {
   template <typename Path>
   double follow(double seconds, const Path& hand, double unseen = 0.0) {
     const double dt = model_->opt.timestep;
-    const auto steps = std::max<std::int64_t>(1, std::llround(std::ceil(seconds / dt)));
-    const std::int64_t skipped =
-        std::min<std::int64_t>(steps - 1, std::llround(unseen / dt));
+    const auto steps = std::max(1LL, std::llround(std::ceil(seconds / dt)));
+    const auto skipped = std::min(steps - 1, std::llround(unseen / dt));
     const double averaged = std::max(kWindow, kWindowShare * seconds);
-    const std::int64_t window =
-        std::min<std::int64_t>(steps - skipped, std::llround(averaged / dt));
+    const auto window = std::min(steps - skipped, std::llround(averaged / dt));
     Vec3 sum = Vec3::Zero();
     double peak = 0.0;
-    for (std::int64_t k = 0; k < steps; ++k) {
+    for (auto k = 0LL; k < steps; ++k) {
       const auto done = static_cast<double>(k);
       lead(hand(done * dt), hand((done + 1.0) * dt));
       mj_step(model_.get(), data_.get());

@@ -1,11 +1,8 @@
 /// `prehensile benchmark` as a user sees it: results, reports, interruptions, deaths.
 #include <chrono>
 #include <csignal>
-#include <fcntl.h>
 #include <fstream>
 #include <set>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
 
@@ -14,6 +11,7 @@
 
 #include "benchmarks/suite/results.h"
 #include "tests/apps/program.h"
+#include "tests/apps/running.h"
 #include "tests/plot/svg_text.h"
 #include "tests/support/random.h"
 
@@ -49,69 +47,6 @@ std::string facts(const fs::path& file) {
   }
   return out;
 }
-
-/// The program running on its own.
-class Running {
- public:
-  explicit Running(const std::vector<std::string>& arguments) {
-    std::vector<std::string> words = {PREHENSILE_PROGRAM};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<char*> pointers;
-    pointers.reserve(words.size() + 1);
-    for (std::string& word : words) pointers.push_back(word.data());
-    pointers.push_back(nullptr);
-    posix_spawn_file_actions_t quiet;
-    posix_spawn_file_actions_init(&quiet);
-    for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-      posix_spawn_file_actions_addopen(&quiet, number, "/dev/null", O_RDWR, 0);
-    }
-    posix_spawnattr_t apart;  // in a group of processes of its own
-    posix_spawnattr_init(&apart);
-    posix_spawnattr_setflags(&apart, POSIX_SPAWN_SETPGROUP);
-    posix_spawnattr_setpgroup(&apart, 0);
-    const int failed =
-        posix_spawn(&process_, pointers[0], &quiet, &apart, pointers.data(), environ);
-    posix_spawn_file_actions_destroy(&quiet);
-    posix_spawnattr_destroy(&apart);
-    if (failed != 0) throw std::runtime_error("cannot start the program");
-  }
-  Running(const Running&) = delete;
-  Running& operator=(const Running&) = delete;
-  ~Running() {
-    if (process_ > 0) {
-      ::kill(process_, SIGKILL);
-      wait();
-    }
-  }
-
-  void signal(int number) const { ::kill(process_, number); }
-  /// Its runs as well, as terminals and batch systems do.
-  void signal_group(int number) const { ::kill(-process_, number); }
-  bool has_ended() {
-    int status = 0;
-    if (process_ < 0 || ::waitpid(process_, &status, WNOHANG) == 0) return process_ < 0;
-    status_ = status;
-    process_ = -1;
-    return true;
-  }
-  int wait() {
-    if (process_ > 0) ::waitpid(process_, &status_, 0);
-    process_ = -1;
-    return WIFEXITED(status_) ? WEXITSTATUS(status_) : -1;
-  }
-  /// The processes of its runs.
-  std::vector<pid_t> children() const {
-    std::ifstream in("/proc/" + std::to_string(process_) + "/task/" +
-                     std::to_string(process_) + "/children");
-    std::vector<pid_t> found;
-    for (pid_t child = 0; in >> child;) found.push_back(child);
-    return found;
-  }
-
- private:
-  pid_t process_ = -1;
-  int status_ = 0;
-};
 
 void sleep_for(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));

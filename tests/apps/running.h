@@ -28,14 +28,9 @@ class Running {
     for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
       posix_spawn_file_actions_addopen(&quiet, number, "/dev/null", O_RDWR, 0);
     }
-    posix_spawnattr_t apart;  // in a group of processes of its own
-    posix_spawnattr_init(&apart);
-    posix_spawnattr_setflags(&apart, POSIX_SPAWN_SETPGROUP);
-    posix_spawnattr_setpgroup(&apart, 0);
     const int failed =
-        posix_spawn(&process_, pointers[0], &quiet, &apart, pointers.data(), environ);
+        posix_spawn(&process_, pointers[0], &quiet, nullptr, pointers.data(), environ);
     posix_spawn_file_actions_destroy(&quiet);
-    posix_spawnattr_destroy(&apart);
     if (failed != 0) throw std::runtime_error("cannot start the program");
   }
   Running(const Running&) = delete;
@@ -48,8 +43,6 @@ class Running {
   }
 
   void signal(int number) const { ::kill(process_, number); }
-  /// Its runs as well, as terminals and batch systems do.
-  void signal_group(int number) const { ::kill(-process_, number); }
   bool has_ended() {
     int status = 0;
     if (process_ < 0 || ::waitpid(process_, &status, WNOHANG) == 0) return process_ < 0;

@@ -49,7 +49,8 @@ void for_each_line(std::string_view text, const Take& take) {
   }
 }
 
-[[noreturn]] void refuse(const std::string& name, const Line& line, std::string what) {
+[[noreturn]] void refuse(const std::string& name, const Line& line,
+                         const std::string& what) {
   constexpr std::size_t kMostShown = 60;
   std::string shown(line.text.substr(0, kMostShown));
   std::erase_if(shown, [](char c) { return c < ' ' || c > '~'; });

@@ -10,6 +10,7 @@
 #include <ompl/util/Console.h>
 
 #include "planner/chain.h"
+#include "planner/holding.h"
 #include "planner/ompl_interface.h"
 #include "tests/planner/ompl_regrasps.h"
 #include "tests/support/random.h"
@@ -99,7 +100,8 @@ TEST(OmplSteps, ValidatorAgreesWithTheSticking) {
       const Move move{contact, start, end};
       sticks =
           sticks || (move_sticks(regrasp.search, contact, start, end, uncounted) &&
-                     exact_slack(regrasp.search, move, uncounted) >= -kStickTolerance);
+                     exact_slack(regrasp.search, move, uncounted) >= -kStickTolerance &&
+                     pads_hold_gravity(regrasp.search, move, uncounted));
     }
     ASSERT_EQ(si->checkMotion(a.get(), b.get()), sticks);
     valid += sticks;

@@ -27,8 +27,8 @@ PlanFile parse_plan(const std::string& text, const std::string& label);
 /// reason of the system, leaving no file behind.
 void write_atomically(const std::filesystem::path& file, const std::string& text);
 
-/// For commands that work long before they write: throws BadInput where `write_atomically`
-/// could not begin.
+/// For commands that work long before they write: throws BadInput where
+/// `write_atomically` could not begin.
 void check_writable(const std::filesystem::path& file);
 
 /// The JSON Schema of plan files.

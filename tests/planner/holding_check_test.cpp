@@ -28,7 +28,7 @@ Plan with_margin(const Model& model) {
 /// one push ends and the next begins, in the attitude of both.
 TEST(HoldingCheck, WayPointsAreHeldAllOverTheMargin) {
   int looked_at = 0;
-  for (std::uint64_t i = 0; i < 60; ++i) {
+  for (std::uint64_t i = 0; i < 30; ++i) {
     const Model model = heavy_box(i);
     const Plan plan = with_margin(model);
     if (!plan.usable()) continue;

@@ -23,6 +23,8 @@ set(costly_when_sanitized
   ExactCheck.SlackOfAPointTellsWhetherItSlips
   Fallback.GoesOnWhereTheExactStagesAreCutShort
   GripRange.EvidenceAtBothEnds
+  HoldingCheck.RefusesWayPointsThatAreNotHeld
+  HoldingCheck.WayPointsAreHeldAllOverTheMargin
   Improve.IsNeverWorse
   LocalLaw.OfAnyShapeDeniesNoInstantThatSticks
   LoopSearch.FindsWhatTurnsLittleAtATime
@@ -53,6 +55,7 @@ set(costly_when_sanitized
   PushCalibration.MirroredPushesGiveMirroredRegistration
   PushCalibration.RecoversWhatMadeThePushes
   PushEstimate.IsHonestOverPads
+  PushEvents.WindingPushesGoOnToTheirEnd
   Reference.ConvergesToTheExactSolverWithGenerators
   Repair.MakesPushesStickThatSlipWithinTheMargin
   RobustPlan.ANominalPlanNeedNotWaitForTheWholeBudget

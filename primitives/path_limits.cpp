@@ -47,9 +47,9 @@ bool PathLimits::are_kept(const Values& one, const Values& other, const StepBoun
   if (sum(Limit::kGuard) < width * std::max(turned, drifted)) return false;
   // Room is concave in the slide, and the way to flush linear in the tilt: they are least
   // at the ends, or where the motion has come back from.
-  return least(Limit::kRoom) >= width * bound.slide_back &&
-         least(Limit::kFlush) >= width * bound.tilt_back * reach_ &&
-         width <= bound.spacing;
+  return !(least(Limit::kRoom) < width * bound.slide_back ||
+           least(Limit::kFlush) < width * bound.tilt_back * reach_ ||
+           width > bound.spacing);
 }
 
 PushStop PathLimits::why_not(Limit limit, const Seat& seat) const {

@@ -27,7 +27,7 @@ constexpr double kContinued = 2.5;
 constexpr double kContinuationError = 1e3;
 
 /// Half of the depth to which a limit may be crossed unseen inside of a step: over the
-/// tolerance, and over the way of the finger axis, which bounds the work along a limit.
+/// tolerance, and over the way within the step, which bounds the work along a limit.
 constexpr double kDepthUnseen = 0.5;
 constexpr double kOfWayUnseen = 1e-4;
 
@@ -102,8 +102,8 @@ Crossing PushRun<Instant>::crossing_between(double from,
   };
   Crossing first;
   const StepBound bound = bound_within(to);
-  const double depth =
-      std::max(kDepthUnseen * options_.tolerance, kOfWayUnseen * bound.way);
+  const double depth = std::max(kDepthUnseen * options_.tolerance,
+                                kOfWayUnseen * std::max(bound.way, reach_ * bound.turn));
   if (limits_.are_kept(at_from, at_to, bound, to - from, depth)) return first;
   Place low{from, at_from};
   std::array<Place, kMostHalvings + 1> ahead;  // the nearest one last

@@ -81,16 +81,12 @@ class PushRun {
     return std::min(1.0, (is_smooth ? 14.0 : 7.0) * options.max_step);
   }
 
-  /// A push that turns by more than half a turn is looked at as closely, and may take as
-  /// many steps, as if its half turns were pushes of their own.
+  /// A push that turns by more than half a turn is looked at as closely as if its half
+  /// turns were pushes of their own; where they are more than these, as if it had these.
+  static constexpr double kMostHalfTurns = 16.0;
   static TransitionOptions closer(TransitionOptions options, const LinearPush& push) {
-    constexpr double kMostHalfTurns = 100.0;
-    constexpr double kMostSteps = 1e7;
     const double turned = std::max(std::abs(push.turn), std::abs(push.bend));
-    const double half_turns = std::clamp(turned / std::numbers::pi, 1.0, kMostHalfTurns);
-    options.max_step /= half_turns;
-    options.max_steps =
-        static_cast<int>(std::min(options.max_steps * half_turns, kMostSteps));
+    options.max_step /= std::clamp(turned / std::numbers::pi, 1.0, kMostHalfTurns);
     return options;
   }
 

@@ -170,8 +170,11 @@ TEST(PushEvents, AGuardIsSeenWhereTheObjectReturns) {
       return std::abs(s.grasp.X_HO.theta - start.X_HO.theta);
     };
     double most = 0.0;
-    for (const Sample& sample : trace) most = std::max(most, turned(sample));
-    const double end = turned(trace.back());
+    double end = 0.0;
+    for (const Sample& sample : trace) {
+      end = turned(sample);
+      most = std::max(most, end);
+    }
     if (!(most > end + 2e-3)) continue;
     ++returned;
     const Guard guard{.angle = std::max(end, 0.25 * most) + 0.5 * (most - end)};

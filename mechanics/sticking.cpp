@@ -280,15 +280,20 @@ StickTest exact_stick_test(const Model& model, const PushContact& contact, doubl
   return test;
 }
 
+double uncertain_moment(const Model& model, const Vec2& p_OF, const Vec2& g_O,
+                        const Margin& margin) noexcept {
+  const double turned = std::abs((model.p_OCom - p_OF).dot(g_O)) * margin.tilt;
+  const double off = (margin.centre_of_mass + margin.grasp) * g_O.norm();
+  return (1.0 + margin.force) * model.mass * (turned + off);
+}
+
 double holding_slack(const Model& model, const Vec2& p_OF, const Vec2& g_O,
                      const Margin& margin) noexcept {
-  const double weight = (1.0 + margin.force) * model.mass * g_O.norm();
+  const double mass = (1.0 + margin.force) * model.mass;
+  const double weight = mass * g_O.norm();
   if (weight == 0.0) return 1.0;
-  const Vec2 lever = model.p_OCom - p_OF;
-  const double turned = std::abs(lever.dot(g_O)) * margin.tilt;
-  const double moment =
-      (1.0 + margin.force) * model.mass * (std::abs(cross(lever, g_O)) + turned) +
-      (margin.centre_of_mass + margin.grasp) * weight;
+  const double moment = mass * std::abs(cross(model.p_OCom - p_OF, g_O)) +
+                        uncertain_moment(model, p_OF, g_O, margin);
   const double c = (1.0 - margin.torque_radius) * model.c;
   return 1.0 - std::hypot(weight / model.F, moment / (model.F * c));
 }

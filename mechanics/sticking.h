@@ -162,6 +162,11 @@ StickTest exact_stick_test(const Model& model, const PushContact& contact, doubl
                            const PlanarPose& X_HO, const Vec2& e, double v, double omega,
                            const Margin& margin, double travelled = 0.0) noexcept;
 
+/// By so much the moment of gravity about the finger axis may be greater within this
+/// margin than at its most weight alone [N m].
+double uncertain_moment(const Model& model, const Vec2& p_OF, const Vec2& g_O,
+                        const Margin& margin) noexcept;
+
 /// The grasp alone holds gravity g_O at this place, by the ellipsoid with this margin:
 /// 1 - load, positive: held. The load is convex in p_OF: held at both ends of a straight
 /// move, gravity is held all along it.

@@ -17,8 +17,8 @@ struct AdviceOptions {
 /// grip force, of the goal's tolerances, of its angle, of limits and obstacles, one
 /// pusher more. `options` are those of the plan. Deterministic; ends early when
 /// options.stop is set, with the changes found until then. For plans that are not usable,
-/// or nominal only. Options are
-/// those of the command `plan`, tried with the values that they name.
+/// or nominal only. The options that are named are those of the command `plan`, tried
+/// with the values that they name.
 Explanation explain(const Model& model, const Plan& plan, const PlanOptions& options,
                     const AdviceOptions& advice = {});
 

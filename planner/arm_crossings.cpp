@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "planner/placement.h"
+#include "scene/constants.h"
 
 namespace prehensile {
 namespace {
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kCut = 1e-4;  // [m] what touches the object flush does not cut it
 
 /// A pusher at rest: a piece of a straight line in the pad plane, over some heights.
@@ -19,32 +18,12 @@ struct Barrier {
   double z_low = 0.0, z_high = 0.0;  ///< [m] in W
 };
 
-/// Half of the sizes of a feature along its face and along z.
-struct HalfSizes {
-  double length = 0.0, width = 0.0;  ///< [m]
-
-  explicit HalfSizes(const PusherFeature& feature) {
-    if (const auto* line = std::get_if<LineFeature>(&feature)) {
-      length = half(line->length);
-    } else if (const auto* upright = std::get_if<UprightFeature>(&feature)) {
-      width = half(upright->length);
-    } else if (const auto* plane = std::get_if<PlaneFeature>(&feature)) {
-      length = half(plane->length);
-      width = half(plane->width);
-    }
-  }
-
- private:
-  static double half(const std::optional<double>& size) {
-    return 0.5 * size.value_or(kInf);
-  }
-};
-
 Barrier barrier_of(const Pusher& pusher) {
-  const HalfSizes half(pusher.feature);
+  const double half_length = 0.5 * length_in_plane(pusher.feature).value_or(0.0);
+  const double half_width = 0.5 * width_across_plane(pusher.feature);
   const Vec2 normal(std::cos(pusher.normal_angle), std::sin(pusher.normal_angle));
-  return {pusher.p_WP, perp(normal), half.length, pusher.z_WP - half.width,
-          pusher.z_WP + half.width};
+  return {pusher.p_WP, perp(normal), half_length, pusher.z_WP - half_width,
+          pusher.z_WP + half_width};
 }
 
 /// How deep a barrier lies in the outline, at the deepest of the middles between the
@@ -66,7 +45,7 @@ double depth_of(const Barrier& barrier, const std::vector<Vec2>& outline,
     cuts.push_back(std::clamp(cut, -barrier.half_length, barrier.half_length));
   }
   std::ranges::sort(cuts);
-  double depth = -kInf;
+  double depth = -kInfinity;
   for (std::size_t i = 1; i < cuts.size(); ++i) {
     const Vec2 middle = centre + 0.5 * (cuts[i - 1] + cuts[i]) * along;
     depth = std::max(depth, depth_inside(outline, middle));

@@ -134,10 +134,7 @@ bool pads_hold_gravity(const Model& model, const PlanarPose& X_HO, const Vec2& g
     grasp.y[j] *= 1.0 - margin.torque_radius;
   }
   grasp.w_g *= 1.0 + margin.force;
-  const double weight = grasp.w_g.head<2>().norm();
-  const double turned = std::abs((model.p_OCom - p_OF).dot(g_O)) * margin.tilt;
-  const double moment = (1.0 + margin.force) * model.mass * turned +
-                        (margin.centre_of_mass + margin.grasp) * weight;
+  const double moment = uncertain_moment(model, p_OF, g_O, margin);
   const double nominal = grasp.w_g[2];
   return std::ranges::all_of(std::array{1.0, -1.0}, [&](double sense) {
     grasp.w_g[2] = nominal + sense * moment;

@@ -24,6 +24,7 @@ struct PushEnd {
 };
 
 struct PushEnds {
+  std::size_t index = 0;  ///< in the plan
   PushEnd from, to;
   LinearPush push;
   bool by_point = false;
@@ -38,7 +39,8 @@ std::vector<PushEnds> ends_of_pushes(const Model& model, const Plan& plan) {
   const bool ends_as_given =
       !model.scene.goal || is_place_given(*model.scene.goal, first, last);
   double travelled = 0.0;
-  for (const PlannedPush& planned : plan.pushes) {
+  for (std::size_t i = 0; i < plan.pushes.size(); ++i) {
+    const PlannedPush& planned = plan.pushes[i];
     const bool begins = travelled == 0.0;
     const double before = travelled;
     travelled += travel_in_pad_plane(planned.push);
@@ -46,7 +48,8 @@ std::vector<PushEnds> ends_of_pushes(const Model& model, const Plan& plan) {
     const LinearPush push = as_linear(planned.push);
     const Vec2& g_O = model.contacts[static_cast<std::size_t>(push.contact)].g_O;
     const bool ends = finger_in_object(planned.end.X_HO) == last && ends_as_given;
-    all.push_back({{planned.start.X_HO, g_O, carried(plan.margin, before), begins},
+    all.push_back({i,
+                   {planned.start.X_HO, g_O, carried(plan.margin, before), begins},
                    {planned.end.X_HO, g_O, carried(plan.margin, travelled), ends},
                    push,
                    is_by_point(model, planned.push)});
@@ -91,16 +94,14 @@ std::string start_holding_fault(const Model& model, const Plan& plan) {
 std::string margin_holding_fault(const Model& model, const Plan& plan) {
   if (plan.margin.is_none()) return {};
   const bool ends_decide = has_round_pads(model) && !can_roll(model.scene.object);
-  int number = 0;
   for (const PushEnds& ends : ends_of_pushes(model, plan)) {
-    ++number;
     if (ends.by_point || ends.from.g_O.isZero(0.0)) continue;
     const bool from = is_held(model, ends.from);
     const bool to = is_held(model, ends.to);
     const bool may_fall = (!from && !ends.from.given) || (!to && !ends.to.given) ||
                           (from && to && !ends_decide && !is_held_between(model, ends));
     if (!may_fall) continue;
-    return "push " + std::to_string(number) +
+    return "push " + std::to_string(ends.index + 1) +
            ": the fingers alone may not hold the object within the margin";
   }
   return {};

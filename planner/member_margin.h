@@ -1,6 +1,8 @@
-/// The margin of plans whose object turns about points, and of cans, which a place in the
-/// hand that is off puts under another part of the pads: no closed form knows what they
-/// do elsewhere in the box, so the whole plan is done by members of the box.
+/// The margin of plans whose object turns about points, of cans, which a place in the
+/// hand that is off puts under another part of the pads, and of pads that the face clips,
+/// by more or less where they are larger or elsewhere: no closed form knows what they do
+/// in the rest of the box, so the whole plan is done by members of the box. Internal to
+/// the planner.
 #pragma once
 
 #include <string>

@@ -3,13 +3,27 @@
 #pragma once
 
 #include <cmath>
+#include <map>
 #include <string>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "mechanics/instant.h"
 #include "problems/random_instants.h"
 
 namespace prehensile::testing {
+
+/// False answers that were looked at, by the status of the right one.
+using ForgedCounts = std::map<InstantStatus, int>;
+
+inline void expect_every_status(ForgedCounts forged) {
+  for (const InstantStatus status :
+       {InstantStatus::kMoves, InstantStatus::kHolds, InstantStatus::kSeparated,
+        InstantStatus::kAmbiguous, InstantStatus::kDynamic}) {
+    EXPECT_GT(forged[status], 200) << name(status);
+  }
+}
 
 /// A random instant whose pusher advances, moves along its face (exactly, or almost), or
 /// recedes.

@@ -278,6 +278,7 @@ TEST(Bounds, OfPointsAskNothingMoreWithoutHelpOfGravity) {
                              .goals = GoalsFrom::kRandom};
     Scene scene = random_fixture(range, 7, i)->scene;
     scene.overhang = Overhang::kIgnore;
+    if (i % 2 == 0) scene = with_soft_points(scene);
     const Model model = prepare(scene);
     const auto bound = [&](bool weightless) {
       return lower_bound(model, scene.start, *scene.goal, 3.0,

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "mechanics/certificate.h"
+#include "planner/exact_check.h"
 #include "planner/plan_trial.h"
 #include "tests/planner/planner_cases.h"
 #include "tests/support/random.h"
@@ -55,7 +56,8 @@ TEST(HoldingCheck, WayPointsAreHeldAllOverTheMargin) {
 /// A plan without a margin that claims one.
 TEST(HoldingCheck, RefusesWayPointsThatAreNotHeld) {
   int refused = 0;
-  for (std::uint64_t i = 0; i < 60 && refused < 3; ++i) {
+  int by_check = 0;
+  for (std::uint64_t i = 0; i < 200 && refused < 10; ++i) {
     const Model model = heavy_box(i);
     PlanOptions options;
     options.margin = Margin::none();
@@ -68,8 +70,18 @@ TEST(HoldingCheck, RefusesWayPointsThatAreNotHeld) {
     if (fault.empty()) continue;
     EXPECT_NE(fault.find("the fingers alone may not hold"), std::string::npos) << fault;
     ++refused;
+    // More weight alone, which pushes may survive that the fingers do not.
+    for (int k = 1; k <= 60; ++k) {
+      plan.margin = Margin::none();
+      plan.margin.force = 0.005 * k;
+      if (margin_holding_fault(model, plan).empty()) continue;
+      std::string why;
+      EXPECT_FALSE(check_exactly(model, options.transition, plan, &why));
+      by_check += why.find("the fingers alone may not hold") != std::string::npos;
+    }
   }
-  EXPECT_EQ(refused, 3);
+  EXPECT_EQ(refused, 10);
+  EXPECT_GT(by_check, 0);
 }
 
 /// Start and goal are given: a plan says where they may not be held, or beside the

@@ -7,7 +7,7 @@
 
 #include "apps/option_checks.h"
 #include "apps/table.h"
-#include "planner/arm_crossings.h"
+#include "planner/arm/arm_crossings.h"
 
 namespace prehensile::apps {
 namespace {

@@ -7,7 +7,7 @@
 #include "apps/benchmark_page.h"
 #include "apps/benchmark_text.h"
 #include "benchmarks/suite/statistics.h"
-#include "planner/share_interval.h"
+#include "planner/checks/share_interval.h"
 
 namespace prehensile::apps {
 namespace {

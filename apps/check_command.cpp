@@ -15,8 +15,8 @@
 #include "apps/push_options.h"
 #include "apps/uncertainty_options.h"
 #include "io/plan_file.h"
+#include "planner/checks/replay.h"
 #include "planner/planner.h"
-#include "planner/replay.h"
 
 namespace prehensile::apps {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "planner/checks/replay.h"
 #include "planner/plan.h"
-#include "planner/replay.h"
 
 namespace prehensile::apps {
 

@@ -9,7 +9,7 @@
 #include "apps/parallel.h"
 #include "apps/table.h"
 #include "apps/uncertainty_options.h"
-#include "planner/share_interval.h"
+#include "planner/checks/share_interval.h"
 
 namespace prehensile::apps {
 namespace {

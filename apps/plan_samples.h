@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "planner/plan_trial.h"
+#include "planner/checks/plan_trial.h"
 
 namespace prehensile::apps {
 

@@ -4,12 +4,12 @@
 #include <numbers>
 
 #include "benchmarks/measure.h"
-#include "planner/baselines.h"
-#include "planner/bounds.h"
+#include "planner/baselines/baselines.h"
+#include "planner/bounds/bounds.h"
+#include "planner/checks/exact_check.h"
+#include "planner/checks/replay.h"
 #include "planner/costs.h"
-#include "planner/exact_check.h"
-#include "planner/push_search.h"
-#include "planner/replay.h"
+#include "planner/search/push_search.h"
 #include "primitives/uncertainty.h"
 #include "problems/published_regrasps.h"
 

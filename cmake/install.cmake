@@ -12,10 +12,14 @@ if(PREHENSILE_APPS)
 endif()
 list(TRANSFORM layers PREPEND prehensile_ OUTPUT_VARIABLE libraries)
 install(TARGETS ${libraries} EXPORT prehensileTargets ARCHIVE)
+# Headers that need what is not built, and folders without any header.
+set(left_out PATTERN fcl EXCLUDE PATTERN absent EXCLUDE)
+if(NOT PREHENSILE_OMPL)
+  list(APPEND left_out PATTERN ompl EXCLUDE PATTERN ompl_interface.h EXCLUDE)
+endif()
 foreach(layer ${layers})
-  # Headers of the subfolders belong to one way of building a library.
-  file(GLOB headers CONFIGURE_DEPENDS ${layer}/*.h)
-  install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/prehensile/${layer})
+  install(DIRECTORY ${layer}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/prehensile/${layer}
+    FILES_MATCHING PATTERN "*.h" ${left_out})
 endforeach()
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/prehensile)

@@ -5,8 +5,8 @@
 
 #include "io/plan_file.h"
 #include "io/scene_file.h"
+#include "planner/checks/replay.h"
 #include "planner/planner.h"
-#include "planner/replay.h"
 
 using namespace prehensile;
 

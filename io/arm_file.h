@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/plan_file.h"
-#include "planner/arm_motion.h"
+#include "planner/arm/arm_motion.h"
 
 namespace prehensile {
 

@@ -2,20 +2,10 @@
 /// solvers. Internal to the mechanics layer.
 #pragma once
 
-#include <cmath>
-#include <initializer_list>
-
 #include "mechanics/instant.h"
+#include "mechanics/violation.h"
 
 namespace prehensile {
-
-/// The larger of two violations; not-a-number is the worst (std::max would drop it).
-inline double worse(double a, double b) { return std::isnan(a) || a >= b ? a : b; }
-inline double worst_of(std::initializer_list<double> violations) {
-  double worst = 0.0;
-  for (const double violation : violations) worst = worse(worst, violation);
-  return worst;
-}
 
 inline constexpr double kFails = 1.0;     ///< violation by a claim that is plainly false
 inline constexpr double kClaimed = 1e-9;  ///< tolerance of inequalities in claims

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <set>
 
-#include "planner/arm_motion.h"
+#include "planner/arm/arm_motion.h"
 
 namespace prehensile::mjcf {
 namespace {

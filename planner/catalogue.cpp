@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "planner/frame.h"
+#include "planner/search/frame.h"
 
 namespace prehensile {
 namespace {

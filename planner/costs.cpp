@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "mechanics/pad_law.h"
-#include "planner/steering.h"
+#include "planner/steering/steering.h"
 #include "primitives/roll.h"
 #include "scene/constants.h"
 

@@ -13,12 +13,15 @@
 #include <vector>
 
 #include "mechanics/sticking.h"
-#include "planner/level_set.h"
 #include "planner/push_constraint.h"
 #include "primitives/push.h"
 #include "primitives/transition.h"
 
 namespace prehensile {
+
+/// Closed polygons of places that neither cross nor touch; what is between them is by the
+/// even-odd rule.
+using Loops = std::vector<std::vector<Vec2>>;
 
 /// One push of a plan with the numbers that the exact mechanics gives for it.
 struct PlannedPush {
@@ -132,7 +135,7 @@ struct Plan {
   double grip_changes = 0.0;     ///< likewise
   double lower_bound = kNan;     ///< valid bound on J over all sticking plans
   bool bound_is_trivial = true;  ///< by distances alone, nothing about pushers
-  std::int64_t bound_nodes = 0;  ///< work of the bound, see planner/bounds.h
+  std::int64_t bound_nodes = 0;  ///< work of the bound, see planner/bounds/bounds.h
   double published_cost = kNan;
 
   std::string planner;  ///< which planner found it

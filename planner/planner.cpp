@@ -4,17 +4,17 @@
 #include <chrono>
 #include <optional>
 
-#include "planner/bounds.h"
+#include "planner/bounds/bounds.h"
 #include "planner/catalogue.h"
-#include "planner/checked_search.h"
-#include "planner/confines.h"
+#include "planner/checks/exact_check.h"
+#include "planner/checks/holding_check.h"
+#include "planner/checks/meet_end.h"
+#include "planner/checks/replay.h"
 #include "planner/costs.h"
-#include "planner/exact_check.h"
-#include "planner/holding_check.h"
-#include "planner/meet_end.h"
-#include "planner/refuse.h"
-#include "planner/replay.h"
-#include "planner/spread_pads.h"
+#include "planner/pads/spread_pads.h"
+#include "planner/proofs/refuse.h"
+#include "planner/search/checked_search.h"
+#include "planner/steering/confines.h"
 #include "primitives/uncertainty.h"
 
 namespace prehensile {

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "planner/checks/replay.h"
 #include "planner/planner.h"
-#include "planner/replay.h"
 #include "problems/extreme_regrasps.h"
 
 namespace prehensile {

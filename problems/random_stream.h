@@ -1,4 +1,4 @@
 /// Random numbers of the problem sets.
 #pragma once
 
-#include "planner/random_stream.h"
+#include "planner/baselines/random_stream.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "planner/exact_check.h"
+#include "planner/checks/exact_check.h"
 
 namespace prehensile::viewer {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "planner/arm_motion.h"
-#include "planner/replay.h"
+#include "planner/arm/arm_motion.h"
+#include "planner/checks/replay.h"
 #include "primitives/motion_cone.h"
 #include "scene/object_surface.h"
 #include "viewer/bodies.h"

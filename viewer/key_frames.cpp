@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "planner/obstacle_bodies.h"
+#include "planner/obstacles/obstacle_bodies.h"
 #include "scene/outline.h"
 #include "viewer/panel.h"
 #include "viewer/surfaces.h"

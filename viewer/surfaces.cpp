@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "planner/obstacle_bodies.h"
+#include "planner/obstacles/obstacle_bodies.h"
 #include "scene/polygon_pieces.h"
 
 namespace prehensile::viewer {

@@ -8,7 +8,7 @@
 #include <new>
 
 #include "io/document.h"
-#include "planner/replay.h"
+#include "planner/checks/replay.h"
 #include "primitives/uncertainty.h"
 
 namespace prehensile::suite {

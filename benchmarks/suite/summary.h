@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "benchmarks/suite/results.h"
-#include "planner/share_interval.h"
+#include "planner/checks/share_interval.h"
 
 namespace prehensile::suite {
 

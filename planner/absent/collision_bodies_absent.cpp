@@ -1,4 +1,4 @@
-#include "planner/collision_bodies.h"
+#include "planner/obstacles/collision_bodies.h"
 
 namespace prehensile {
 

@@ -1,4 +1,4 @@
-#include "planner/frame.h"
+#include "planner/search/frame.h"
 
 namespace prehensile {
 

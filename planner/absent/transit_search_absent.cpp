@@ -1,4 +1,4 @@
-#include "planner/transit.h"
+#include "planner/arm/transit.h"
 
 namespace prehensile {
 

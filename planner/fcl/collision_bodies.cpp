@@ -1,4 +1,4 @@
-#include "planner/collision_bodies.h"
+#include "planner/obstacles/collision_bodies.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <fcl/narrowphase/distance.h>
 #include <vector>
 
-#include "planner/obstacle_bodies.h"
+#include "planner/obstacles/obstacle_bodies.h"
 
 namespace prehensile {
 namespace {

@@ -1,4 +1,4 @@
-#include "planner/frame.h"
+#include "planner/search/frame.h"
 
 #include <algorithm>
 #include <chrono>
@@ -8,7 +8,8 @@
 #include "planner/ompl/seeded_run.h"
 #include "planner/ompl/solution.h"
 #include "planner/ompl/stock_planners.h"
-#include "planner/push_search.h"
+#include "planner/steering/draft.h"
+#include "planner/steering/goal.h"
 
 namespace prehensile {
 namespace {

@@ -7,7 +7,7 @@
 #include <ompl/base/ScopedState.h>
 #include <ompl/geometric/PathGeometric.h>
 
-#include "planner/push_search.h"
+#include "planner/search/push_search.h"
 
 namespace prehensile {
 namespace {

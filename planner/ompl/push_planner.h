@@ -7,10 +7,10 @@
 
 namespace prehensile {
 
-/// Exact steering, way-points and lattice (planner/push_search.h) behind the interface of
-/// ompl::base::Planner. Its solution is a geometric path whose every segment is one push;
-/// `plan` has the pushes themselves. `solve` draws no random numbers, so OMPL's seed does
-/// not matter to it, and it never reports approximate solutions.
+/// Exact steering, way-points and lattice (planner/search/push_search.h) behind the
+/// interface of ompl::base::Planner. Its solution is a geometric path whose every segment
+/// is one push; `plan` has the pushes themselves. `solve` draws no random numbers, so
+/// OMPL's seed does not matter to it, and it never reports approximate solutions.
 class PushPlanner : public ompl::base::Planner {
  public:
   /// `problem` must outlive the planner. `options` say budget, stop flag and time limit;

@@ -5,11 +5,11 @@
 #include <ompl/base/ScopedState.h>
 
 #include "planner/costs.h"
-#include "planner/goal.h"
 #include "planner/ompl/push_controls.h"
 #include "planner/ompl/push_objective.h"
 #include "planner/ompl/push_propagator.h"
 #include "planner/ompl/push_validity.h"
+#include "planner/steering/goal.h"
 
 namespace prehensile {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 
-#include "planner/push_steps.h"
+#include "planner/steering/push_steps.h"
 
 namespace prehensile {
 

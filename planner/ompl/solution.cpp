@@ -5,7 +5,7 @@
 #include <ompl/control/PathControl.h>
 #include <ompl/geometric/PathGeometric.h>
 
-#include "planner/goal.h"
+#include "planner/steering/goal.h"
 
 namespace prehensile {
 namespace {

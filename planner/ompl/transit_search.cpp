@@ -6,8 +6,8 @@
 #include <ompl/geometric/PathGeometric.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
 
+#include "planner/arm/transit.h"
 #include "planner/ompl/seeded_run.h"
-#include "planner/transit.h"
 
 namespace prehensile {
 namespace {

@@ -1,5 +1,6 @@
 /// The architecture as a test: includes point to the left only, and third parties stay in
 /// their rooms.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -36,6 +37,14 @@ const std::map<std::string, std::set<std::string>> kLeftOf = {
      {"scene", "optimisation", "mechanics", "primitives", "planner", "mesh", "io", "plot",
       "viewer", "mjcf", "apps"}},
 };
+
+/// The folders of the planner, each of which may include those before it, and the values
+/// at the top of the planner that all of it speaks of; the sources at the top may include
+/// all.
+const std::vector<std::string> kFoldersOfPlanner = {
+    "geometry", "obstacles", "pads",   "steering",  "bounds", "checks",
+    "chains",   "walks",     "finish", "baselines", "search", "proofs",
+    "arm",      "fcl",       "ompl",   "absent"};
 
 /// Where a third party, or a part of the standard library, may be named.
 struct Room {
@@ -106,6 +115,34 @@ TEST(Layers, IncludesPointToTheLeft) {
     ++checked;
   }
   EXPECT_GT(checked, 100);
+}
+
+/// How far down a file of the planner is in the list; -1 at the top.
+int folder_of_planner(const std::string& path) {
+  const std::string inner = path.substr(std::string("planner/").size());
+  const std::size_t slash = inner.find('/');
+  if (slash == std::string::npos) return -1;
+  const auto place = std::ranges::find(kFoldersOfPlanner, inner.substr(0, slash));
+  return static_cast<int>(place - kFoldersOfPlanner.begin());
+}
+
+TEST(Layers, FoldersOfThePlannerPointToTheLeft) {
+  const int unknown = static_cast<int>(kFoldersOfPlanner.size());
+  int checked = 0;
+  for (const Include& include : all_includes()) {
+    if (!include.file.starts_with("planner/") || !include.what.starts_with("planner/")) {
+      continue;
+    }
+    const int from = folder_of_planner(include.file);
+    const int to = folder_of_planner(include.what);
+    const bool is_public = include.file == "planner/ompl_interface.h";
+    const bool is_source = include.file.ends_with(".cpp");
+    EXPECT_LT(from, unknown) << include.file << " lies in a folder without a place";
+    EXPECT_TRUE(from < 0 ? to < 0 || is_source || is_public : to <= from)
+        << include.file << ':' << include.line << " includes " << include.what;
+    ++checked;
+  }
+  EXPECT_GT(checked, 300);
 }
 
 TEST(Layers, ThirdPartiesStayInTheirRooms) {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/frame.h"
+#include "planner/search/frame.h"
 #include "tests/planner/planner_cases.h"
 
 namespace prehensile {

@@ -1,7 +1,7 @@
 /// Scenes and places with discs that the face clips, which tests share.
 #pragma once
 
-#include "planner/spread_pads.h"
+#include "planner/pads/spread_pads.h"
 #include "scene/outline.h"
 #include "tests/planner/planner_cases.h"
 #include "tests/support/random.h"

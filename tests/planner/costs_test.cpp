@@ -4,12 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/arm_motion.h"
-#include "planner/bounds.h"
-#include "planner/exact_check.h"
-#include "planner/loosen_grip.h"
+#include "planner/arm/arm_motion.h"
+#include "planner/bounds/bounds.h"
+#include "planner/checks/exact_check.h"
+#include "planner/checks/replay.h"
+#include "planner/finish/loosen_grip.h"
 #include "planner/planner.h"
-#include "planner/replay.h"
 #include "primitives/roll.h"
 #include "tests/planner/law_cases.h"
 #include "tests/planner/planner_cases.h"

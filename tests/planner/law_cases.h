@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "mechanics/sticking.h"
-#include "planner/ring_pads.h"
-#include "planner/spread_pads.h"
-#include "planner/steering.h"
+#include "planner/pads/ring_pads.h"
+#include "planner/pads/spread_pads.h"
+#include "planner/steering/steering.h"
 #include "problems/pad_shapes.h"
 #include "problems/published_regrasps.h"
 #include "tests/support/random.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "planner/planner.h"
-#include "planner/steering.h"
+#include "planner/steering/steering.h"
 #include "tests/planner/planner_cases.h"
 
 namespace prehensile::testing {

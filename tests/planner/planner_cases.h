@@ -9,11 +9,11 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/chain_search.h"
+#include "planner/chains/chain_search.h"
 #include "planner/costs.h"
 #include "planner/planner.h"
-#include "planner/push_search.h"
-#include "planner/steering.h"
+#include "planner/search/push_search.h"
+#include "planner/steering/steering.h"
 #include "problems/published_regrasps.h"
 #include "problems/random_fixtures.h"
 #include "problems/random_regrasps.h"

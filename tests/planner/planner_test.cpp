@@ -5,14 +5,14 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/bounds.h"
-#include "planner/direct_push.h"
-#include "planner/exact_check.h"
-#include "planner/goal.h"
-#include "planner/limits.h"
-#include "planner/polish.h"
-#include "planner/push_search.h"
-#include "planner/replay.h"
+#include "planner/bounds/bounds.h"
+#include "planner/chains/direct_push.h"
+#include "planner/checks/exact_check.h"
+#include "planner/checks/replay.h"
+#include "planner/finish/polish.h"
+#include "planner/search/push_search.h"
+#include "planner/steering/goal.h"
+#include "planner/steering/limits.h"
 #include "primitives/uncertainty.h"
 #include "problems/random_fixtures.h"
 #include "scene/constants.h"

@@ -1,9 +1,9 @@
 /// Random problems as searches see them, which tests share.
 #pragma once
 
-#include "planner/goal.h"
-#include "planner/limits.h"
-#include "planner/walk_lattice.h"
+#include "planner/steering/goal.h"
+#include "planner/steering/limits.h"
+#include "planner/walks/walk_lattice.h"
 #include "problems/random_fixtures.h"
 
 namespace prehensile::testing {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/exact_check.h"
-#include "planner/push_search.h"
+#include "planner/checks/exact_check.h"
+#include "planner/search/push_search.h"
 #include "primitives/uncertainty.h"
 #include "tests/planner/planner_cases.h"
 

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/plan_trial.h"
-#include "planner/replay.h"
+#include "planner/checks/plan_trial.h"
+#include "planner/checks/replay.h"
 #include "tests/planner/planner_cases.h"
 
 namespace prehensile {

@@ -1,8 +1,8 @@
 /// Programs of runs over published objects.
 #pragma once
 
-#include "planner/ring_pads.h"
-#include "planner/run_program.h"
+#include "planner/bounds/run_program.h"
+#include "planner/pads/ring_pads.h"
 #include "problems/published_regrasps.h"
 #include "scene/outline.h"
 #include "tests/planner/law_cases.h"

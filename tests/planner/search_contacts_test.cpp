@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/steering.h"
+#include "planner/steering/steering.h"
 #include "primitives/uncertainty.h"
 #include "problems/random_fixtures.h"
 #include "tests/planner/walled_scene.h"

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/advice.h"
-#include "planner/replay.h"
+#include "planner/checks/replay.h"
 #include "primitives/uncertainty.h"
 #include "tests/planner/planner_cases.h"
 

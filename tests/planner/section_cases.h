@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/pad_section.h"
+#include "planner/pads/pad_section.h"
 
 namespace prehensile::testing {
 

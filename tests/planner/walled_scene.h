@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/steering.h"
+#include "planner/steering/steering.h"
 #include "tests/planner/no_budget.h"
 #include "tests/support/random.h"
 

@@ -6,8 +6,8 @@
 #include <iterator>
 #include <vector>
 
-#include "planner/chain.h"
-#include "planner/goal.h"
+#include "planner/steering/chain.h"
+#include "planner/steering/goal.h"
 #include "problems/random_stream.h"
 #include "tests/planner/planner_cases.h"
 

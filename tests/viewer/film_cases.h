@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/object_surface.h"
-#include "planner/collision_bodies.h"
+#include "planner/obstacles/collision_bodies.h"
 #include "planner/planner.h"
 #include "viewer/film.h"
 

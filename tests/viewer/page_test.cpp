@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "planner/refuse.h"
+#include "planner/proofs/refuse.h"
 #include "problems/published_regrasps.h"
 #include "tests/viewer/film_cases.h"
 #include "viewer/film_json.h"

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/collision_bodies.h"
-#include "planner/obstacle_bodies.h"
-#include "planner/separation.h"
+#include "planner/obstacles/collision_bodies.h"
+#include "planner/obstacles/obstacle_bodies.h"
+#include "planner/obstacles/separation.h"
 #include "tests/viewer/film_cases.h"
 #include "viewer/film_state.h"
 

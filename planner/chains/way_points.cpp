@@ -1,0 +1,128 @@
+#include "planner/chains/way_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/costs.h"
+
+namespace prehensile {
+namespace {
+
+/// Directions in which the finger axis may leave (or reach) a place, as unit e of the
+/// object's motion.
+struct Directions {
+  int count = 0;
+  std::array<Vec2, 5> e;
+};
+
+/// Share of the friction angle that counts as the edge: on the edge itself rounding
+/// decides.
+constexpr double kNearEdge = 0.98;
+
+Directions promising_directions(const SearchModel& search, int contact,
+                                const Vec2& p_OF) {
+  const StickContact& stick = search.contacts[contact].stick;
+  const double edge =
+      kNearEdge * std::atan(stick.mu * std::max(0.0, 1.0 - search.margin.friction));
+  Directions directions;
+  const auto add_angle = [&](double angle) {
+    directions.e[directions.count++] =
+        std::cos(angle) * stick.n + std::sin(angle) * stick.t;
+  };
+  add_angle(0.0);
+  add_angle(edge);
+  add_angle(-edge);
+  for (const Vec2& end : {stick.a, stick.b}) {
+    const Vec2 away = p_OF - end;
+    const double angle = std::atan2(away.dot(stick.t), away.dot(stick.n));
+    if (std::abs(angle) < edge) add_angle(angle);
+  }
+  return directions;
+}
+
+/// The point start - s e_1 = goal + r e_2 with s, r > 0; false if there is none.
+bool crossing(const Vec2& start, const Vec2& e_1, const Vec2& goal, const Vec2& e_2,
+              Vec2& p_OF) {
+  const double sine = cross(e_1, e_2);
+  if (std::abs(sine) < 1e-3) return false;
+  const Vec2 d = start - goal;
+  const double s = cross(d, e_2) / sine;
+  const double r = cross(e_1, d) / sine;
+  if (s < kShortestLeg || r < kShortestLeg) return false;
+  p_OF = start - s * e_1;
+  return true;
+}
+
+double least_turn(const GoalPlace& goal, double theta_start) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < goal.count; ++i) {
+    least = std::min(least, std::abs(goal.theta[i] - theta_start));
+  }
+  return least;
+}
+
+}  // namespace
+
+double BestWayPoints::worst_cost() const {
+  return count_ < kCapacity ? to_beat_ : points_[count_ - 1].cost;
+}
+
+void BestWayPoints::add(const WayPoint& point) noexcept {
+  if (!(point.cost < worst_cost())) return;
+  int i = std::min(count_, kCapacity - 1);
+  for (; i > 0 && points_[i - 1].cost > point.cost; --i) points_[i] = points_[i - 1];
+  points_[i] = point;
+  count_ = std::min(count_ + 1, kCapacity);
+}
+
+void add_way_point(const Steering& steering, double theta_start, const GoalPlaces& goals,
+                   int place, const Leg& first, const Leg& second, Chain& chain,
+                   BestWayPoints& best) noexcept {
+  const SearchModel& search = steering.search;
+  const int placed = first.contact != second.contact ? 2 : 1;
+  const double length = first.length + second.length;
+  const TurnWindow window = turns_from(search, theta_start);
+  const GoalPlace& goal = goals.places[place];
+  for (int angle = 0; angle < goal.count; ++angle) {
+    const double dtheta = goal.theta[angle] - theta_start;
+    const double least = straight_cost(*search.model, placed, length, dtheta);
+    if (least >= best.worst_cost()) continue;
+    chain.count = 2;
+    chain.legs[0] = first;
+    chain.legs[1] = second;
+    if (!solve_chain(search, dtheta, chain, window)) continue;
+    best.add({chain.cost, first.contact, second.contact, first.to, place, angle});
+  }
+}
+
+void add_crossings(const Steering& steering, const FlatState& start,
+                   const GoalPlaces& goals, int place, Work& work,
+                   BestWayPoints& best) noexcept {
+  const SearchModel& search = steering.search;
+  const Vec2& goal = goals.places[place].p_OF;
+  const int contacts = static_cast<int>(search.contacts.size());
+  const double turn = least_turn(goals.places[place], start.theta);
+  const auto may_be_kept = [&](int placements, const Vec2& p_OF) {
+    const double length = (start.p_OF - p_OF).norm() + (goal - p_OF).norm();
+    return straight_cost(*search.model, placements, length, turn) < best.worst_cost();
+  };
+  Chain chain;
+  for (int i = 0; i < contacts; ++i) {
+    const Directions from = promising_directions(search, i, start.p_OF);
+    for (int j = 0; j < contacts && !work.spent(); ++j) {
+      const Directions to = promising_directions(search, j, goal);
+      for (int k = 0; k < from.count * to.count; ++k) {
+        Vec2 p_OF;
+        Leg first, second;
+        if (crossing(start.p_OF, from.e[k / to.count], goal, to.e[k % to.count], p_OF) &&
+            may_be_kept(i == j ? 1 : 2, p_OF) &&
+            make_leg(steering, i, {start.p_OF, true}, {p_OF}, work, first) &&
+            make_leg(steering, j, {p_OF}, {goal, true}, work, second)) {
+          add_way_point(steering, start.theta, goals, place, first, second, chain, best);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace prehensile

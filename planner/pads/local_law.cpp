@@ -1,0 +1,310 @@
+#include "planner/pads/local_law.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace prehensile {
+namespace {
+
+/// Boxes, and cells of round pads: the more, the less the law allows beyond what sticks.
+constexpr int kEllipsoidBoxes = 1024;
+constexpr int kRingCellsOfLaw = 1024;
+
+/// Over F, F c and |v|: by so much an inequality may fail and still count as met.
+constexpr double kRounding = 1e-8;
+
+/// Of the friction beyond the last box of a section, in shares of that of the last.
+constexpr double kBeyond = 0.01;
+
+std::vector<FrictionBox> ellipsoid_boxes() {
+  std::vector<FrictionBox> boxes;
+  for (int i = 0; i < kEllipsoidBoxes; ++i) {
+    const auto angle = [](int k) {
+      return std::numbers::pi * (static_cast<double>(k) / kEllipsoidBoxes - 0.5);
+    };
+    const auto [cosine_low, cosine_high] =
+        std::minmax({std::cos(angle(i)), std::cos(angle(i + 1))});
+    const double sine_low = std::sin(angle(i));
+    const double sine_high = std::sin(angle(i + 1));
+    boxes.push_back({cosine_low, cosine_high, 0.0, sine_low, sine_high, cosine_low,
+                     cosine_high, sine_low, sine_high});
+  }
+  return boxes;
+}
+
+/// Turning on the spot, faster than in the box.
+FrictionBox beyond(const FrictionBox& last) {
+  FrictionBox box = last;
+  box.cosine_low = box.along_low = 0.0;
+  box.across = std::max(box.across, box.along_high);
+  box.moment_low -= kBeyond * std::abs(last.moment_low);
+  box.moment_high += kBeyond * std::abs(last.moment_high);
+  (last.sine_low < 0.0 ? box.sine_low : box.sine_high) = last.sine_low < 0.0 ? -1.0 : 1.0;
+  return box;
+}
+
+double middle_sine(const FrictionBox& box) { return box.sine_low + box.sine_high; }
+
+bool has_planar_pushes(const Model& model) {
+  return model.F > 0.0 && model.c > 0.0 &&
+         std::ranges::none_of(model.contacts, [&](const PushContact& contact) {
+           return model.needs_space(contact);
+         });
+}
+
+std::vector<FrictionBox> boxes_of(PadSection section) {
+  std::vector<FrictionBox>& boxes = section.boxes;
+  double slowest = std::numeric_limits<double>::infinity();
+  for (const FrictionBox& box : boxes) slowest = std::min(slowest, box.cosine_low);
+  const std::size_t known = boxes.size();
+  for (std::size_t i = 0; i < known; ++i) {
+    if (slowest > 0.0 && boxes[i].cosine_low == slowest) {
+      boxes.push_back(beyond(boxes[i]));
+    }
+  }
+  std::ranges::stable_sort(boxes, {}, &middle_sine);
+  return boxes;
+}
+
+std::vector<FrictionBox> boxes_of(const Model& model) {
+  if (!has_planar_pushes(model)) return {};
+  if (model.has_soft_points()) return ellipsoid_boxes();
+  return boxes_of(pad_section(model, kRingCellsOfLaw));
+}
+
+/// Leaves in the second half, as many as a power of two: the last box repeated.
+std::vector<FrictionBox> tree_over(const std::vector<FrictionBox>& boxes) {
+  if (boxes.empty()) return {};
+  const std::size_t leaves = std::bit_ceil(boxes.size());
+  std::vector<FrictionBox> tree(2 * leaves, boxes.back());
+  std::ranges::copy(boxes, tree.begin() + static_cast<std::ptrdiff_t>(leaves));
+  for (std::size_t i = leaves - 1; i > 0; --i) {
+    tree[i] = joined(tree[2 * i], tree[2 * i + 1]);
+  }
+  return tree;
+}
+
+/// The greatest of factor x value over an interval.
+double most(double factor, double low, double high) {
+  return factor > 0.0 ? factor * high : factor * low;
+}
+
+/// along x friction along the motion + moment x moment of the pads + reach x friction
+/// across + constant >= 0, the factors being the greatest over places and directions.
+struct Row {
+  double along = 0.0, moment = 0.0, reach = 0.0, constant = 0.0;
+
+  bool may_hold(const FrictionBox& box) const {
+    return most(along, box.along_low, box.along_high) +
+               most(moment, box.moment_low, box.moment_high) + reach * box.across +
+               constant >=
+           -kRounding;
+  }
+};
+
+/// Rate at which the pusher advances at an end of the face: normal part of the motion
+/// and of the turning, at one of the places.
+struct Advance {
+  double along = 0.0;
+  double turning_low = 0.0, turning_high = 0.0;
+
+  bool may_hold(const FrictionBox& box) const {
+    const double turning = std::max(most(turning_low, box.sine_low, box.sine_high),
+                                    most(turning_high, box.sine_low, box.sine_high));
+    return most(along, box.cosine_low, box.cosine_high) + turning >= -kRounding;
+  }
+};
+
+Row edge_of_cone(const PushContact& contact, const Vec2& gamma, double side,
+                 const DirectionSpan& directions) {
+  const Vec2 w = contact.mu * contact.n + side * contact.t;
+  return {w.norm() * directions.half_angle - w.dot(directions.middle), 0.0, w.norm(),
+          -w.dot(gamma)};
+}
+
+/// Moment about an end of the face over F c: side +1 about b, -1 about a.
+Row end_of_face(const Model& model, const Vec2& end, const Vec2& gamma, double side,
+                std::span<const Vec2> places, const DirectionSpan& directions) {
+  Row row{-INFINITY, side, 0.0, -side * cross(model.p_OCom - end, gamma) / model.c};
+  for (const Vec2& place : places) {
+    const Vec2 lever = (place - end) / model.c;
+    row.along = std::max(row.along, lever.norm() * directions.half_angle -
+                                        side * cross(lever, directions.middle));
+    row.reach = std::max(row.reach, lever.norm());
+  }
+  return row;
+}
+
+Advance advance_of(const PushContact& contact, const Vec2& end, double c,
+                   std::span<const Vec2> places, const DirectionSpan& directions) {
+  Advance advance{directions.half_angle - contact.n.dot(directions.middle), INFINITY,
+                  -INFINITY};
+  for (const Vec2& place : places) {
+    const double turning = contact.n.dot(perp(end - place)) / c;
+    advance.turning_low = std::min(advance.turning_low, turning);
+    advance.turning_high = std::max(advance.turning_high, turning);
+  }
+  return advance;
+}
+
+/// What a contact asks of the friction of the pads.
+class Demands {
+ public:
+  Demands(const Model& model, const PushContact& contact, bool weightless,
+          std::span<const Vec2> places, const DirectionSpan& directions)
+      : advances_{advance_of(contact, contact.a, model.c, places, directions),
+                  advance_of(contact, contact.b, model.c, places, directions)} {
+    const Vec2 gamma = model.mass / model.F * contact.g_O;
+    add_rows(model, contact, gamma, places, directions);
+    // Without gravity the object turns about a point as it does not with it.
+    if (weightless && !contact.is_point) {
+      add_rows(model, contact, Vec2::Zero(), places, directions);
+    }
+  }
+
+  bool may_be_met(const FrictionBox& box) const {
+    return std::all_of(rows_.begin(), rows_.begin() + count_,
+                       [&](const Row& row) { return row.may_hold(box); }) &&
+           std::any_of(advances_.begin(), advances_.end(),
+                       [&](const Advance& end) { return end.may_hold(box); });
+  }
+
+ private:
+  void add_rows(const Model& model, const PushContact& contact, const Vec2& gamma,
+                std::span<const Vec2> places, const DirectionSpan& directions) {
+    rows_[count_++] = edge_of_cone(contact, gamma, 1.0, directions);
+    rows_[count_++] = edge_of_cone(contact, gamma, -1.0, directions);
+    rows_[count_++] = end_of_face(model, contact.b, gamma, 1.0, places, directions);
+    rows_[count_++] = end_of_face(model, contact.a, gamma, -1.0, places, directions);
+  }
+
+  std::array<Row, 8> rows_;
+  int count_ = 0;
+  std::array<Advance, 2> advances_;
+};
+
+/// Least sigma - share kappa in a box: (1 - share sin phi) / cos phi, which falls up to
+/// where the sine is the share and rises from there.
+double least_in(const FrictionBox& box, double share) {
+  const double sine = std::clamp(share, box.sine_low, box.sine_high);
+  const double squared = (1.0 - sine) * (1.0 + sine);
+  return squared > 0.0 ? (1.0 - share * sine) / std::sqrt(squared) : INFINITY;
+}
+
+/// Greatest sense kappa in a box.
+double most_in(const FrictionBox& box, double sense) {
+  const double sine = sense > 0.0 ? box.sine_high : -box.sine_low;
+  const double cosine = sine > 0.0 ? box.cosine_low : box.cosine_high;
+  return cosine > 0.0 ? sine / cosine : std::copysign(INFINITY, sine);
+}
+
+/// Nodes of a tree that are still to be looked at: more than twice its depth.
+template <class Entry>
+class Pile {
+ public:
+  bool empty() const { return count_ == 0; }
+  void push(const Entry& entry) { entries_[count_++] = entry; }
+  Entry pop() { return entries_[--count_]; }
+
+ private:
+  std::array<Entry, 64> entries_;
+  int count_ = 0;
+};
+
+bool is_leaf(const std::vector<FrictionBox>& tree, std::size_t node) {
+  return 2 * node >= tree.size();
+}
+
+bool may_be_met_in(const std::vector<FrictionBox>& tree, const Demands& demands) {
+  Pile<std::size_t> open;
+  open.push(1);
+  while (!open.empty()) {
+    const std::size_t node = open.pop();
+    if (!demands.may_be_met(tree[node])) continue;
+    if (is_leaf(tree, node)) return true;
+    open.push(2 * node);
+    open.push(2 * node + 1);
+  }
+  return false;
+}
+
+/// The least cost of a box that the demands may be met in, from the cheaper branch on.
+/// `cost(box)` is no more than that of any box within.
+template <class Cost>
+LeastTravel least_in_tree(const std::vector<FrictionBox>& tree, const Demands& demands,
+                          const Cost& cost) {
+  const auto branch_to = [&](std::size_t node) -> LeastTravel {
+    return {cost(tree[node]), node};
+  };
+  LeastTravel least{.cost = INFINITY};
+  Pile<LeastTravel> open;
+  open.push(branch_to(1));
+  while (!open.empty()) {
+    const LeastTravel branch = open.pop();
+    if (branch.cost >= least.cost || !demands.may_be_met(tree[branch.box])) continue;
+    if (is_leaf(tree, branch.box)) {
+      least = branch;
+      continue;
+    }
+    const LeastTravel one = branch_to(2 * branch.box);
+    const LeastTravel other = branch_to(2 * branch.box + 1);
+    open.push(one.cost < other.cost ? other : one);
+    open.push(one.cost < other.cost ? one : other);
+  }
+  return least;
+}
+
+}  // namespace
+
+LocalLaw::LocalLaw(const Model& model, bool weightless)
+    : LocalLaw(model, weightless, boxes_of(model)) {}
+
+LocalLaw::LocalLaw(const Model& model, bool weightless,
+                   const std::vector<FrictionBox>& boxes)
+    : model_(model), weightless_(weightless), tree_(tree_over(boxes)) {}
+
+LocalLaw LocalLaw::of_whole_discs(const Model& model) {
+  if (!has_planar_pushes(model)) return {model, false, {}};
+  return {model, false, boxes_of(section_of_whole_discs(model, kRingCellsOfLaw))};
+}
+
+bool LocalLaw::is_in_cone(const PushContact& contact,
+                          const DirectionSpan& directions) const noexcept {
+  const Vec2 gamma = model_.mass / model_.F * contact.g_O;
+  return edge_of_cone(contact, gamma, 1.0, directions).may_hold(tree_[1]) &&
+         edge_of_cone(contact, gamma, -1.0, directions).may_hold(tree_[1]);
+}
+
+bool LocalLaw::may_move(int contact, const PlaceSpan& places,
+                        const DirectionSpan& directions) const noexcept {
+  const PushContact& pushed = model_.contacts[contact];
+  const std::array ends = {places.a, places.b};
+  return is_known() && is_in_cone(pushed, directions) &&
+         may_be_met_in(tree_, {model_, pushed, weightless_, ends, directions});
+}
+
+LeastTravel LocalLaw::least_travel(int contact, std::span<const Vec2> corners,
+                                   const DirectionSpan& directions, double share,
+                                   const LeastTravel& before) const noexcept {
+  const PushContact& pushed = model_.contacts[contact];
+  if (!is_known() || !is_in_cone(pushed, directions)) return {.cost = INFINITY};
+  const Demands demands(model_, pushed, weightless_, corners, directions);
+  if (before.box > 0 && demands.may_be_met(tree_[before.box])) return before;
+  return least_in_tree(tree_, demands,
+                       [share](const FrictionBox& box) { return least_in(box, share); });
+}
+
+double LocalLaw::most_turn(int contact, std::span<const Vec2> corners,
+                           const DirectionSpan& directions, double sense) const noexcept {
+  const PushContact& pushed = model_.contacts[contact];
+  if (!is_known() || !is_in_cone(pushed, directions)) return -INFINITY;
+  return -least_in_tree(tree_, {model_, pushed, weightless_, corners, directions},
+                        [sense](const FrictionBox& box) { return -most_in(box, sense); })
+              .cost;
+}
+
+}  // namespace prehensile

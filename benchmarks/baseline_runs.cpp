@@ -9,6 +9,7 @@
 #include "planner/checks/exact_check.h"
 #include "planner/checks/replay.h"
 #include "planner/costs.h"
+#include "planner/search/frame.h"
 #include "planner/search/push_search.h"
 #include "primitives/uncertainty.h"
 #include "problems/published_regrasps.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mechanics/certificate_evidence.h"
 #include "mechanics/violation.h"
 #include "planner/bounds/bounds.h"
 #include "planner/checks/exact_check.h"

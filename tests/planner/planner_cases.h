@@ -13,6 +13,7 @@
 #include "planner/costs.h"
 #include "planner/planner.h"
 #include "planner/search/push_search.h"
+#include "planner/steering/draft.h"
 #include "planner/steering/steering.h"
 #include "problems/published_regrasps.h"
 #include "problems/random_fixtures.h"

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/chains/direct_push.h"
 #include "planner/checks/replay.h"
 #include "tests/planner/executed_pushes.h"
 #include "tests/planner/planner_cases.h"
@@ -137,29 +136,6 @@ TEST(Baselines, RollsAreAdded) {
     }
     ADD_FAILURE() << planner << " solved no can";
   }
-}
-
-/// Unit steps along a straight line are one push in the end.
-TEST(Baselines, StraightStepsAreJoined) {
-  const Model model = prepare(published_square(3));
-  const SearchModel search = prepare_search(model, Margin::none());
-  Work work{.budget = kNoBudget};
-  const FlatState start = flat_state(model.scene.start);
-  const GoalPlaces goals = goal_places(model, *model.scene.goal, start);
-  const auto push = direct_push(search, start, goals, work);
-  ASSERT_TRUE(push);
-  std::vector<Move> steps;
-  for (int i = 0; i < 7; ++i) {
-    const auto at = [&](double s) {
-      return FlatState{start.p_OF + s * (push->to.p_OF - start.p_OF),
-                       start.theta + s * (push->to.theta - start.theta)};
-    };
-    steps.push_back({push->contact, at(i / 7.0), at((i + 1) / 7.0)});
-  }
-  EXPECT_EQ(joined_moves(search, steps).size(), 1U);
-  steps.resize(3);
-  std::swap(steps[0], steps[2]);  // no way from one to the next
-  EXPECT_GT(joined_moves(search, steps).size(), 1U);
 }
 
 TEST(Baselines, OptionsMatter) {

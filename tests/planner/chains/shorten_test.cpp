@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "planner/chains/direct_push.h"
 #include "problems/random_fixtures.h"
 #include "tests/planner/planner_cases.h"
 #include "tests/planner/wasteful_moves.h"
@@ -99,6 +100,29 @@ TEST(Shorten, OnePushDoesWhatManyDidInALine) {
   EXPECT_EQ(shorter.front().from.p_OF, moves.front().from.p_OF);
   EXPECT_EQ(shorter.back().to.p_OF, moves.back().to.p_OF);
   EXPECT_LE(cost_of(search, shorter), cost_of(search, moves) + 1e-12);
+}
+
+/// Unit steps along a straight line are one push in the end.
+TEST(Shorten, StraightStepsAreJoined) {
+  const Model model = prepare(published_square(3));
+  const SearchModel search = prepare_search(model, Margin::none());
+  Work work{.budget = testing::kNoBudget};
+  const FlatState start = flat_state(model.scene.start);
+  const GoalPlaces goals = goal_places(model, *model.scene.goal, start);
+  const auto push = direct_push(search, start, goals, work);
+  ASSERT_TRUE(push);
+  std::vector<Move> steps;
+  for (int i = 0; i < 7; ++i) {
+    const auto at = [&](double s) {
+      return FlatState{start.p_OF + s * (push->to.p_OF - start.p_OF),
+                       start.theta + s * (push->to.theta - start.theta)};
+    };
+    steps.push_back({push->contact, at(i / 7.0), at((i + 1) / 7.0)});
+  }
+  EXPECT_EQ(joined_moves(search, steps).size(), 1U);
+  steps.resize(3);
+  std::swap(steps[0], steps[2]);  // no way from one to the next
+  EXPECT_GT(joined_moves(search, steps).size(), 1U);
 }
 
 }  // namespace

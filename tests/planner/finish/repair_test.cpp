@@ -5,6 +5,7 @@
 #include "optimisation/nonlinear_program.h"
 #include "planner/finish/stretch.h"
 #include "planner/search/push_search.h"
+#include "planner/steering/draft.h"
 #include "planner/steering/goal.h"
 #include "problems/published_regrasps.h"
 #include "tests/planner/rejected_plan.h"

@@ -7,6 +7,7 @@
 
 #include "mechanics/pad_law.h"
 #include "planner/checks/exact_check.h"
+#include "planner/geometry/level_set.h"
 #include "planner/pads/clipped_law.h"
 #include "planner/proofs/refuse.h"
 #include "planner/steering/chain.h"

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "optimisation/nonlinear_program.h"
+#include "planner/geometry/level_set.h"
 #include "planner/planner.h"
 #include "problems/random_fixtures.h"
 #include "scene/constants.h"

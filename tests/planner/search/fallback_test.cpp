@@ -6,6 +6,7 @@
 #include "planner/chains/shorten.h"
 #include "planner/checks/replay.h"
 #include "planner/search/push_search.h"
+#include "planner/steering/draft.h"
 #include "tests/planner/executed_pushes.h"
 #include "tests/planner/planner_cases.h"
 

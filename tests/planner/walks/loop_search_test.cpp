@@ -9,6 +9,7 @@
 #include "planner/chains/shorten.h"
 #include "planner/checks/meet_end.h"
 #include "planner/search/push_search.h"
+#include "planner/steering/draft.h"
 #include "planner/walks/walk_search.h"
 #include "problems/random_fixtures.h"
 #include "tests/planner/executed_pushes.h"

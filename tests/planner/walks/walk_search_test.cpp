@@ -8,6 +8,7 @@
 #include "planner/chains/shorten.h"
 #include "planner/checks/meet_end.h"
 #include "planner/search/push_search.h"
+#include "planner/steering/draft.h"
 #include "problems/random_fixtures.h"
 #include "tests/planner/executed_pushes.h"
 #include "tests/planner/planner_cases.h"

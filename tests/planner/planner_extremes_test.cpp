@@ -65,6 +65,16 @@ TEST(PlannerExtremes, PlansByFrictionlessPointsHoldAsAWhole) {
   EXPECT_NE(judged.verdict, Verdict::kWrong) << judged.reason;
 }
 
+// Points of clipped pads leave the face and come back many times on the way: how firmly
+// the second push sticks depends on where exactly the first one ends.
+TEST(PlannerExtremes, PlansOfManyTurnsStateTheSlackThatTheirReplayHas) {
+  PlanOptions options;
+  options.budget = 1'000'000;
+  const JudgedPlan judged =
+      judged_plan(with_extreme("3 turns to be made", 14, 1), options);
+  EXPECT_EQ(judged.verdict, Verdict::kSolved) << judged.reason;
+}
+
 // Where the usual margin is larger than the faces it leaves points no place to push at: a
 // plan without it is looked for all the same.
 TEST(PlannerExtremes, MarginsLargerThanFacesLeaveNominalPlans) {

@@ -37,7 +37,7 @@ void add_line(const Results& results, const GroupSummary& group, Table& table) {
   table.add({family_name(results, group.family),
              results.planners[static_cast<std::size_t>(group.planner)].name,
              std::to_string(group.runs), std::to_string(group.solved()),
-             std::to_string(group.nominal_only),
+             std::to_string(group.part_of_margin), std::to_string(group.nominal_only),
              std::to_string(group.count(RunStatus::kInfeasible)),
              std::to_string(group.count(RunStatus::kUndecided)),
              std::to_string(failures(group) + group.count(RunStatus::kUnsupported)),
@@ -69,6 +69,7 @@ Json json_of(const Results& results, const GroupSummary& group) {
   out["cost_median"] = number(group.cost_median);
   out["gap_median"] = number(group.gap_median);
   out["near_bound"] = group.near_bound;
+  out["part_of_margin"] = group.part_of_margin;
   out["nominal_only"] = group.nominal_only;
   out["pushes_median"] = number(group.pushes_median);
   out["memory_most_MB"] = number(group.memory_most);
@@ -86,9 +87,9 @@ std::string family_name(const Results& results, int family) {
 }
 
 std::string describe(const Results& results, const Summary& summary) {
-  Table table({"family", "planner", "runs", "solved", "nominal only", "infeasible",
-               "undecided", "other", "success %", "95 %", "ms med", "ms p99", "J med",
-               "gap % med"});
+  Table table({"family", "planner", "runs", "solved", "part margin", "nominal only",
+               "infeasible", "undecided", "other", "success %", "95 %", "ms med",
+               "ms p99", "J med", "gap % med"});
   for (const GroupSummary& group : summary.groups) add_line(results, group, table);
   if (results.families.size() > 1) {
     for (const GroupSummary& group : summary.totals) add_line(results, group, table);

@@ -49,7 +49,11 @@ void set_margin(const Options& options, const Model& model, PlanOptions& plan) {
   plan.margin->weightless = options.weightless;
 }
 
-/// Plans; where that fails, or only a nominal plan exists, says what would help.
+bool has_less_than_asked(const Plan& plan) {
+  return plan.promise == Promise::kNominalOnly || plan.promise == Promise::kPartOfMargin;
+}
+
+/// Plans; where that fails, or nothing survives the margin, says what would help.
 Plan planned(const Options& options, const Model& model) {
   ProgressLine line(options.progress_seconds);
   PlanOptions plan_options = options.plan;
@@ -59,12 +63,11 @@ Plan planned(const Options& options, const Model& model) {
   plan_options.stop = &stop_on_signals();
   plan_options.progress = [&line](const SearchProgress& p) { line.show(p); };
   Plan plan = plan_regrasp(model, plan_options);
-  const bool needs_advice = !plan.usable() || plan.promise == Promise::kNominalOnly;
+  const bool needs_advice = !plan.usable() || has_less_than_asked(plan);
   const bool has_answer = plan.status != PlanStatus::kStopped &&
                           plan.status != PlanStatus::kUnsupported && !plan.stopped_early;
   if (needs_advice && has_answer && !options.no_advice) {
-    plan.explanation =
-        explain(model, plan, plan_options, {.margin_factor = options.margin});
+    plan.explanation = explain(model, plan, plan_options);
   }
   return plan;
 }
@@ -107,8 +110,7 @@ int run(const Options& options) {
     std::fputs(arm.report.c_str(), stdout);
     if (!options.view.empty()) std::printf("page: %s\n", options.view.c_str());
   }
-  const bool is_answer =
-      plan.usable() && !(options.robust && plan.promise == Promise::kNominalOnly);
+  const bool is_answer = plan.usable() && !(options.robust && has_less_than_asked(plan));
   return is_answer ? kDone : kNegative;
 }
 
@@ -169,8 +171,8 @@ Command add_plan(CLI::App& app) {
   add_arm_options(command, options->arm);
   add_view_option(command, options->view);
   command.footer(
-      "Where no plan survives the margin, a nominal one is looked for and marked as "
-      "such.\n"
+      "Where no plan survives the margin, a nominal one is looked for, then one that "
+      "survives a\npart of it, and marked as such.\n"
       "Ctrl-C keeps the best plan found so far and writes it: exit code 0 if there is "
       "one,\n1 if there is none; a second Ctrl-C ends the program.\n"
       "Example:\n  prehensile plan problems/published/tee_21.yaml -o plan.json --seed 7\n"

@@ -39,8 +39,9 @@ inline const auto kStatusWords = named(
     std::array{PlanStatus::kNotRun, PlanStatus::kReachedGoal, PlanStatus::kNothingToDo,
                PlanStatus::kInfeasible, PlanStatus::kBudgetSpent, PlanStatus::kStopped,
                PlanStatus::kUnsupported});
-inline const auto kPromiseWords = named(std::array{
-    Promise::kNominal, Promise::kNominalOnly, Promise::kMargin, Promise::kScene});
+inline const auto kPromiseWords =
+    named(std::array{Promise::kNominal, Promise::kNominalOnly, Promise::kPartOfMargin,
+                     Promise::kMargin, Promise::kScene});
 inline constexpr std::array<Word<bool>, 2> kBoundWords = {
     {{true, "distances"}, {false, "contacts"}}};
 inline constexpr std::array<Word<bool>, 2> kGravityWords = {
@@ -270,16 +271,19 @@ void visit_plan(Fields& fields, WrittenPlan& record) {
   fields.group("proof", record.proof, "Why no plan exists; only if infeasible.",
                [](auto& f, Proof& proof) { visit_proof(f, proof); });
   fields.group("explanation", record.explanation,
-               "Why there is no plan, or only a nominal one, and what would help.",
+               "Why there is no plan, or one with less margin than asked for, and what "
+               "would help.",
                [](auto& f, WrittenExplanation& e) { visit_explanation(f, e); });
   fields.text("planner", plan.planner, kRequired, "Which planner found it.");
   fields.count("seed", plan.seed, "Of every random choice.");
   fields.group("margin", plan.margin, kRequired,
                "Box of uncertainty that every push survives: shares, and distances in m.",
                [](auto& f, Margin& margin) { visit_margin(f, margin); });
-  fields.word("promise", plan.promise, kPromiseWords, kOptional,
-              "What the margin is. nominal only: no plan was found that survives the one "
-              "asked for, this one holds for the values of the scene alone.");
+  fields.word(
+      "promise", plan.promise, kPromiseWords, kOptional,
+      "What the margin is. part of the margin: no plan was found that survives the "
+      "one asked for, this one survives a part of it. nominal only: nor for a part, "
+      "this one holds for the values of the scene alone.");
   fields.group("start", plan.start, kRequired, "Pose in the hand before.", kVisitGrasp);
   fields.group("goal", plan.goal, kRequired, "Pose reached.", kVisitGrasp);
   fields.list("pushes", record.pushes, Length{0, kMostPushes}, kRequired, "In order.",

@@ -28,21 +28,16 @@ double written(double value) { return std::strtod(number(value).c_str(), nullptr
 /// Tries changed scenes and keeps those that can be planned.
 class Adviser {
  public:
-  Adviser(const Model& model, const Plan& plan, const PlanOptions& options,
-          const AdviceOptions& advice)
-      : model_(model),
-        plan_(plan),
-        options_(options),
-        margin_factor_(advice.margin_factor) {
-    options_.budget = std::min(options.budget, advice.budget);
+  Adviser(const Model& model, const PlanOptions& options, std::int64_t budget)
+      : model_(model), options_(options) {
+    options_.budget = std::min(options.budget, budget);
     options_.nominal_if_needed = false;
     options_.prove = false;
     options_.time_limit = 0.0;
-    wanted_ = options.margin.value_or(usual_margin(model));
+    options_.margin = options.margin.value_or(usual_margin(model));
   }
 
   std::vector<ProposedChange> changes() {
-    try_margins();
     try_frictions();
     if (!try_grip_forces()) try_grip_range();
     try_tolerances();
@@ -56,34 +51,14 @@ class Adviser {
  private:
   bool stopped() const { return options_.stop && options_.stop->load(); }
 
-  /// Keeps the change if its scene can be planned with this margin.
-  bool works(const Scene& scene, const Margin& margin, ProposedChange change) {
+  /// Keeps the change if its scene can be planned with the margin asked for.
+  bool works(const Scene& scene, ProposedChange change) {
     if (stopped() || !check(scene).empty()) return false;
-    options_.margin = margin;
     const Plan plan = plan_regrasp(prepare(scene, model_.options), options_);
     if (plan.status != PlanStatus::kReachedGoal) return false;
     change.cost = plan.cost;
     changes_.push_back(std::move(change));
     return true;
-  }
-
-  bool works(const Scene& scene, ProposedChange change) {
-    return works(scene, wanted_, std::move(change));
-  }
-
-  void try_margins() {
-    if (plan_.promise != Promise::kNominalOnly) return;  // less was tried already
-    for (const double factor : {0.75, 0.5, 0.25}) {
-      ProposedChange change{"a margin of " + number(100.0 * factor) +
-                            " % of the one asked for"};
-      Margin margin = wanted_.scaled(factor);
-      if (options_.promise == Promise::kMargin) {
-        const double of_usual = written(factor * margin_factor_);
-        change.option = "--margin " + number(of_usual);
-        margin = wanted_.scaled(of_usual / margin_factor_);
-      }
-      if (works(model_.scene, margin, std::move(change))) return;
-    }
   }
 
   void try_frictions() {
@@ -261,10 +236,7 @@ class Adviser {
   }
 
   const Model& model_;
-  const Plan& plan_;
   PlanOptions options_;
-  double margin_factor_;
-  Margin wanted_;
   std::vector<ProposedChange> changes_;
 };
 
@@ -293,6 +265,8 @@ std::string paragraph(const Plan& plan, const Explanation& explanation) {
   std::string text;
   if (plan.status == PlanStatus::kInfeasible) {
     text = "No plan exists: " + plan.proof.text + ".";
+  } else if (plan.promise == Promise::kPartOfMargin) {
+    text = "A plan was found for a part of the margin only.";
   } else if (plan.usable()) {
     text = "Only a nominal plan was found.";
   } else {
@@ -319,10 +293,10 @@ std::string paragraph(const Plan& plan, const Explanation& explanation) {
 }  // namespace
 
 Explanation explain(const Model& model, const Plan& plan, const PlanOptions& options,
-                    const AdviceOptions& advice) {
+                    std::int64_t budget) {
   Explanation explanation;
   if (model.scene.goal) {
-    explanation.changes = Adviser(model, plan, options, advice).changes();
+    explanation.changes = Adviser(model, options, budget).changes();
   }
   explanation.text = paragraph(plan, explanation);
   return explanation;

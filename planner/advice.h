@@ -6,20 +6,15 @@
 
 namespace prehensile {
 
-struct AdviceOptions {
-  std::int64_t budget = 300'000;  ///< stick tests of each trial
-  /// Of the plan's margin over the usual one, where it is Promise::kMargin; > 0.
-  double margin_factor = 1.0;
-};
-
 /// What stopped the search most, in one paragraph, and the smallest change of each kind
-/// that makes the scene solvable: of the margin, of the frictions of the pushers, of the
-/// grip force, of the goal's tolerances, of its angle, of limits and obstacles, one
-/// pusher more. `options` are those of the plan. Deterministic; ends early when
-/// options.stop is set, with the changes found until then. For plans that are not usable,
-/// or nominal only. The options that are named are those of the command `plan`, tried
-/// with the values that they name.
+/// that makes the scene solvable with the margin asked for: of the frictions of the
+/// pushers, of the grip force, of the goal's tolerances, of its angle, of limits and
+/// obstacles, one pusher more. `options` are those of the plan; `budget` counts the stick
+/// tests of each trial. Deterministic; ends early when options.stop is set, with the
+/// changes found until then. For plans that are not usable, or have less than that
+/// margin. The options that are named are those of the command `plan`, tried with the
+/// values that they name.
 Explanation explain(const Model& model, const Plan& plan, const PlanOptions& options,
-                    const AdviceOptions& advice = {});
+                    std::int64_t budget = 300'000);
 
 }  // namespace prehensile

@@ -65,6 +65,8 @@ std::string_view name(Promise promise) {
       return "nominal";
     case Promise::kNominalOnly:
       return "nominal only";
+    case Promise::kPartOfMargin:
+      return "part of the margin";
     case Promise::kMargin:
       return "margin";
     case Promise::kScene:

@@ -97,10 +97,11 @@ std::string_view name(Proof::Kind kind);
 
 /// What a plan promises to survive.
 enum class Promise {
-  kNominal,      ///< as asked: only the values of the scene
-  kNominalOnly,  ///< no plan was found for the margin asked for; this one has none
-  kMargin,       ///< the margin given in the options, or the usual box
-  kScene,        ///< the uncertainty that the scene states
+  kNominal,       ///< as asked: only the values of the scene
+  kNominalOnly,   ///< no plan was found for the margin asked for, or a part of it
+  kPartOfMargin,  ///< no plan was found for the margin asked for; this one has less
+  kMargin,        ///< the margin given in the options, or the usual box
+  kScene,         ///< the uncertainty that the scene states
 };
 std::string_view name(Promise promise);
 
@@ -112,7 +113,7 @@ struct ProposedChange {
   double cost = kNan;  ///< J of the plan found with it
 };
 
-/// Why there is no plan, or only a nominal one, and what would help (advice.h).
+/// Why there is no plan, or one with less margin, and what would help (advice.h).
 struct Explanation {
   std::string text;  ///< one paragraph
   std::vector<ProposedChange> changes;

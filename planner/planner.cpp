@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "planner/bounds/bounds.h"
 #include "planner/catalogue.h"
@@ -62,9 +65,54 @@ void set_infeasible(Plan& plan, const Proof& proof) {
   plan.pushes.clear();
 }
 
+/// Greater for more of the same box.
+double size_of(const Margin& margin) {
+  return margin.friction + margin.force + margin.torque_radius + margin.place +
+         margin.centre_of_mass + margin.grasp + margin.tilt;
+}
+
+/// Why a plan has less than the margin asked for, and what it has.
+std::string lesser_promise(const std::string& why, const std::string& what) {
+  return "no plan was found that survives the margin (" + why + "); this one " + what;
+}
+
+/// Of a margin that no plan was found for, a half, then a quarter more or less: a plan
+/// that survives so much is better than the nominal one, which is given back where no
+/// such plan is found. `why` there is none for the whole.
+Plan with_part_of_margin(const Model& model, const PlanOptions& options,
+                         std::chrono::steady_clock::time_point begin,
+                         const Margin& margin, const std::string& why, Work& work,
+                         Plan nominal) {
+  constexpr int kTries = 2;
+  Plan best = std::move(nominal);
+  double share = 0.5;
+  for (int i = 0; i < kTries && size_of(margin) > 0.0; ++i) {
+    const auto rest = with_time_left(options, begin);
+    if (!rest || Limits(options, work).stopped()) break;
+    work.budget = work.done() + work_with_margin(options);
+    Found found;
+    Plan plan = search_and_check(model, *rest, margin.scaled(share), work, found);
+    const std::int64_t instants = best.instants + plan.instants;
+    const bool survives = plan.usable();
+    if (survives) {
+      plan.promise = Promise::kPartOfMargin;
+      plan.message = lesser_promise(
+          why, "survives " + std::to_string(std::lround(100.0 * share)) + " % of it");
+      const std::string caveat = given_caveat(model, plan);
+      if (!caveat.empty()) plan.message += "; " + caveat;
+      best = std::move(plan);
+    }
+    best.instants = instants;
+    share += survives ? 0.25 : -0.25;
+  }
+  return best;
+}
+
 /// With the margin; if that finds nothing, a barrier is looked for, and if there is none
-/// either, a plan without margin; where a barrier takes longer than that, the plan first.
+/// either, a plan without margin, and then one for a part of it; where a barrier takes
+/// longer than that, the plan first.
 Plan search_with_and_without(const Model& model, const PlanOptions& options, Work& work) {
+  const auto begin = std::chrono::steady_clock::now();
   const Margin margin = options.margin.value_or(usual_margin(model));
   const bool nominal = margin.is_none();
   const bool falls_back = options.nominal_if_needed && !nominal;
@@ -108,9 +156,10 @@ Plan search_with_and_without(const Model& model, const PlanOptions& options, Wor
     return plan;
   }
   without.promise = Promise::kNominalOnly;
-  without.message = "no plan was found that survives the margin (" + plan.message +
-                    "); this one is nominal: it holds for the values of the scene only";
-  return without;
+  without.message = lesser_promise(
+      plan.message, "is nominal: it holds for the values of the scene only");
+  return with_part_of_margin(model, options, begin, margin, plan.message, work,
+                             std::move(without));
 }
 
 /// With `improve`: what is found without it, and what a search goes on to find, whichever
@@ -128,9 +177,8 @@ Plan search_on(const Model& model, const PlanOptions& options, Work& work) {
   if (!rest) return plan;
   Plan better = search_with_and_without(model, *rest, work);
   if (!better.usable()) return plan;
-  if (better.promise != plan.promise) {
-    return better.promise == Promise::kNominalOnly ? plan : better;
-  }
+  const double more = size_of(better.margin) - size_of(plan.margin);
+  if (more != 0.0) return more > 0.0 ? better : plan;
   account(model, plan);
   account(model, better);
   return better.cost < plan.cost ? better : plan;

@@ -27,8 +27,9 @@ struct PlanOptions {
   /// Plan for this box, doubled once if the exact check fails; unset: usual_margin().
   std::optional<Margin> margin;
   Promise promise = Promise::kMargin;  ///< what the margin is, for the plan's record
-  /// Where no plan survives the margin, look for one that has none and say so. The usual
-  /// margin then has a quarter of the budget, or five million if that is more.
+  /// Where no plan survives the margin, look for one that has none, then for one that
+  /// survives a part of it, and say so. The usual margin, and each part, then have a
+  /// quarter of the budget, or five million if that is more.
   bool nominal_if_needed = true;
   bool improve = false;  ///< search on, with the whole budget, after the first plan;
                          ///< of the others, those that can

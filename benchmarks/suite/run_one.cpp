@@ -65,6 +65,7 @@ void add_plan(const Plan& plan, const Model& model, RunRecord& record) {
     record.margin = std::fmin(record.margin, push.slack);
   }
   record.plan = digest_of_pushes(plan);
+  record.part_of_margin = plan.promise == Promise::kPartOfMargin;
   record.nominal_only = plan.promise == Promise::kNominalOnly;
   if (plan.pushes.empty() && !reaches(*model.scene.goal, model.scene.start)) {
     record.message = "claims that there is nothing to do";

@@ -60,7 +60,8 @@ struct RunRecord {
   RunStatus status = RunStatus::kCrashed;
   bool certified = false;            ///< its plan or its proof is verified
   bool constructed = false;          ///< a plan is known to exist
-  bool nominal_only = false;         ///< solved, but not with the margin asked for
+  bool part_of_margin = false;       ///< solved, with a part of the margin asked for
+  bool nominal_only = false;         ///< solved, with none of it
   double time = kNothing;            ///< [s] processor time of planning
   double wall_time = kNothing;       ///< [s] of planning
   double setup_time = kNothing;      ///< [s] processor time of making the problem
@@ -94,6 +95,7 @@ template <typename Record, typename F>
 void visit_columns(Record& r, F&& f) {
   f("certified", r.certified);
   f("constructed", r.constructed);
+  f("part_of_margin", r.part_of_margin);
   f("nominal_only", r.nominal_only);
   f("time", r.time);
   f("wall_time", r.wall_time);

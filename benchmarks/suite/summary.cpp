@@ -40,6 +40,7 @@ GroupSummary group_of(const std::vector<const ResultRow*>& rows,
     gaps.push_back(record.gap);
     pushes.push_back(static_cast<double>(record.pushes));
     if (record.gap <= kNearBound) ++group.near_bound;
+    if (record.part_of_margin) ++group.part_of_margin;
     if (record.nominal_only) ++group.nominal_only;
   }
   group.success_interval =

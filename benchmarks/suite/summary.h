@@ -20,8 +20,9 @@ struct GroupSummary {
   int planner = 0;
   int runs = 0;
   std::array<int, kRunStatusNames.size()> by_status{};
-  int feasible_runs = 0;  ///< on problems that nobody has proved infeasible
-  int nominal_only = 0;   ///< solved, but not with the margin asked for
+  int feasible_runs = 0;   ///< on problems that nobody has proved infeasible
+  int part_of_margin = 0;  ///< solved, with a part of the margin asked for
+  int nominal_only = 0;    ///< solved, with none of it
   ShareInterval success_interval;
   double time_median = kNothing, time_p99 = kNothing, time_most = kNothing;  ///< [s]
   double cost_median = kNothing;

@@ -100,22 +100,24 @@ TEST(PlanOptions, TheNamedOptionHelps) {
               1e-9);
 }
 
-/// So does the margin, which is a factor on the usual one whatever was asked for.
-TEST(PlanOptions, TheNamedMarginHelps) {
+/// A plan for a part of the margin is that which this part alone gives.
+TEST(PlanOptions, APartOfTheMarginIsMarkedAsSuch) {
   const Folder folder;
   const std::string scene = "problems/slide_then_pivot.yaml";
-  for (const std::string asked : {"0.7", "1"}) {
-    planned(folder, scene + " --margin " + asked);
-    ASSERT_EQ(plan_of(folder).at("promise"), "nominal only");
-    const json change = plan_of(folder).at("explanation").at("changes").at(0);
-    const std::string option = change.at("option");
-    ASSERT_EQ(option.rfind("--margin ", 0), 0u) << option;
-    EXPECT_LT(std::stod(option.substr(9)), std::stod(asked));
-    ASSERT_EQ(planned(folder, scene + ' ' + option).exit_code, 0);
-    EXPECT_EQ(plan_of(folder).at("promise"), "margin") << option;
-    EXPECT_NEAR(plan_of(folder).at("cost").get<double>(), change.at("cost").get<double>(),
-                1e-9);
-  }
+  const Outcome whole = planned(folder, scene);
+  EXPECT_EQ(whole.exit_code, 0);
+  const json part = plan_of(folder);
+  ASSERT_EQ(part.at("promise"), "part of the margin");
+  EXPECT_NE(whole.out.find("planned for (part of the margin)"), std::string::npos);
+  EXPECT_NE(part.at("message").get<std::string>().find("75 % of it"), std::string::npos);
+  EXPECT_TRUE(part.contains("explanation"));
+  EXPECT_EQ(run_program("check " + folder.path("plan.json").string()).exit_code, 0);
+
+  ASSERT_EQ(planned(folder, scene + " --margin 0.75").exit_code, 0);
+  const json alone = plan_of(folder);
+  EXPECT_EQ(alone.at("promise"), "margin");
+  EXPECT_EQ(alone.at("margin"), part.at("margin"));
+  EXPECT_EQ(alone.at("pushes"), part.at("pushes"));
 }
 
 TEST(PlanOptions, ArmFilesAreWrittenByExtension) {

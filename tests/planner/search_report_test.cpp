@@ -151,19 +151,22 @@ TEST(Advice, IsTheSameEveryTime) {
   EXPECT_EQ(explain(model, plan, options).text, explain(model, plan, options).text);
 }
 
-TEST(Advice, SaysWhatANominalPlanLacks) {
+TEST(Advice, SaysWhatAPlanLacks) {
   const Model model = prepare(published_tee(0));
-  PlanOptions options;
-  options.budget = 200'000;
-  options.margin = Margin{}.scaled(4.0);
-  options.margin->tilt = 0.2;
-  options.margin->grasp = 0.01;
-  Plan plan = plan_regrasp(model, options);
-  ASSERT_EQ(plan.promise, Promise::kNominalOnly);
-  const Explanation explanation = explain(model, plan, options);
-  EXPECT_NE(explanation.text.find("nominal"), std::string::npos);
-  ASSERT_FALSE(explanation.changes.empty());
-  EXPECT_NE(explanation.changes[0].what.find("margin"), std::string::npos);
+  for (const double tilt : {0.2, 2.0}) {
+    PlanOptions options;
+    options.budget = 200'000;
+    options.margin = Margin{}.scaled(4.0);
+    options.margin->tilt = tilt;
+    options.margin->grasp = 0.01;
+    const Plan plan = plan_regrasp(model, options);
+    const bool is_nominal = plan.promise == Promise::kNominalOnly;
+    ASSERT_TRUE(is_nominal || plan.promise == Promise::kPartOfMargin);
+    EXPECT_EQ(is_nominal, tilt > 1.0);
+    const Explanation explanation = explain(model, plan, options);
+    EXPECT_NE(explanation.text.find(is_nominal ? "nominal" : "a part of the margin"),
+              std::string::npos);
+  }
 }
 
 TEST(Advice, AfterAProofToo) {

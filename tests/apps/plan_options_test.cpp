@@ -109,11 +109,11 @@ TEST(PlanOptions, APartOfTheMarginIsMarkedAsSuch) {
   const json part = plan_of(folder);
   ASSERT_EQ(part.at("promise"), "part of the margin");
   EXPECT_NE(whole.out.find("planned for (part of the margin)"), std::string::npos);
-  EXPECT_NE(part.at("message").get<std::string>().find("75 % of it"), std::string::npos);
+  EXPECT_NE(part.at("message").get<std::string>().find("50 % of it"), std::string::npos);
   EXPECT_TRUE(part.contains("explanation"));
   EXPECT_EQ(run_program("check " + folder.path("plan.json").string()).exit_code, 0);
 
-  ASSERT_EQ(planned(folder, scene + " --margin 0.75").exit_code, 0);
+  ASSERT_EQ(planned(folder, scene + " --margin 0.5").exit_code, 0);
   const json alone = plan_of(folder);
   EXPECT_EQ(alone.at("promise"), "margin");
   EXPECT_EQ(alone.at("margin"), part.at("margin"));

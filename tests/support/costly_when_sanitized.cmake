@@ -3,7 +3,7 @@
 set(costly_when_sanitized
   Advice.IsTheSameEveryTime
   Advice.NamesOnlyChangesThatWork
-  Advice.SaysWhatANominalPlanLacks
+  Advice.SaysWhatAPlanLacks
   Barrier.FeasibleProblemsHaveNone
   Barrier.FeasibleProblemsOfPointsHaveNone
   Barrier.NothingCrossesIt
@@ -59,7 +59,7 @@ set(costly_when_sanitized
   Reference.ConvergesToTheExactSolverWithGenerators
   Repair.MakesPushesStickThatSlipWithinTheMargin
   RobustPlan.ANominalPlanNeedNotWaitForTheWholeBudget
-  RobustPlan.SaysSoWhereOnlyANominalPlanExists
+  RobustPlan.SaysSoWhereNoPlanSurvivesTheMargin
   RunSuite.JobsDoNotChangeResults
   RunSuite.OneRunAgainIsTheSameRow
   RunSuite.ShardsMakeTheWhole

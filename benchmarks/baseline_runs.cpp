@@ -108,6 +108,7 @@ Run run_planner(const Problem& problem, const PlanOptions& options, bool robust)
   const SearchModel search_model = prepare_search(model, margin);
   Run run{problem.kind, problem.scene.name, options.planner, options.seed, {}};
   run.us = search_time_us([&] { run.plan = search(search_model, options); });
+  run.plan.promise = robust ? Promise::kMargin : Promise::kNominal;
   run.solved = passes(model, options, run.plan);
   return run;
 }

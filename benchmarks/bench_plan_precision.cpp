@@ -243,6 +243,10 @@ int run(int count, char** arguments) {
   const Summaries summaries = summaries_of(levels);
   write_table(summaries, stderr);
   if (!options.plots.empty()) written = write_plots(options, summaries) && written;
+  if (std::ranges::none_of(levels, [](const Level& level) { return level.run.solved; })) {
+    std::fputs("no planner solved any of the problems: no error can be told\n", stderr);
+    return 1;
+  }
   return written ? 0 : 1;
 }
 

@@ -44,7 +44,10 @@ const std::vector<LastLeg>& LegGraph::last_legs(int node) {
   for (int place = 0; place < goals_.count; ++place) {
     const Stop goal_place{goals_.places[place].p_OF, true};
     for (int contact = 0; contact < contacts_; ++contact) {
-      if (!make_leg(steering_, contact, stop_at(node), goal_place, work_, leg)) continue;
+      if (!usable(node, contact) || !make_leg_from_held(steering_, contact, stop_at(node),
+                                                        goal_place, work_, leg)) {
+        continue;
+      }
       legs->push_back({place, leg, {}});
       append_edges(leg, goal(), legs->back().edges);
     }
@@ -53,7 +56,9 @@ const std::vector<LastLeg>& LegGraph::last_legs(int node) {
 }
 
 bool LegGraph::make(int contact, int from, int to, Leg& leg) {
-  if (!make_leg(steering_, contact, stop_at(from), stop_at(to), work_, leg)) return false;
+  if (!make_held_leg(steering_, contact, stop_at(from), stop_at(to), work_, leg)) {
+    return false;
+  }
   const auto known = kappas_.find({contact, from, to});
   if (known != kappas_.end()) leg.kappas = known->second;
   return !leg.kappas.empty();

@@ -17,6 +17,7 @@ constexpr double kFirstStep = 0.01;      // over L
 constexpr double kWanted = 0.01;         // slack of each push: more is no better
 constexpr double kEnough = 1e-6;         // above rounding
 constexpr double kForbidden = 1.0;       // charge for a push off the object, or not held
+constexpr double kReach = 0.5;           // of a way-point from its place, over L
 constexpr double kWorst = -10.0;         // slacks below it count as this
 constexpr std::size_t kMostPushes = 24;  // beyond it sub-plex gains too little
 constexpr std::int64_t kLook = 10;       // work of the slack of a push, in stick tests
@@ -42,6 +43,8 @@ class StretchRepair {
       const FlatState at = flat_state(pushes[i].end);
       for (const double x : {at.p_OF.x(), at.p_OF.y(), search_.model->c * at.theta}) {
         program.start.push_back(x);
+        program.lower.push_back(x - kReach * search_.model->L);
+        program.upper.push_back(x + kReach * search_.model->L);
       }
     }
     if (missing_of(program.start) == 0.0) return false;

@@ -12,7 +12,8 @@ namespace prehensile {
 namespace {
 
 constexpr int kMaxCombinations = 256;
-constexpr double kMostKappa = 1e4;  // beyond it a leg is a rotation on the spot
+constexpr double kMostKappa = 1e4;   // beyond it a leg is a rotation on the spot
+constexpr double kMostTurn = 100.0;  // [rad] of a leg: nobody winds a hand up so far
 
 using Intervals = std::array<KappaSet::Interval, Chain::kMaxLegs>;
 using Kappas = std::array<double, Chain::kMaxLegs>;
@@ -45,6 +46,17 @@ double common_kappa(const Chain& chain, const Intervals& intervals, double wante
   const double sum_low = sum_at(low);
   const double sum = sum_at(*end);
   return sum > sum_low ? low + (*end - low) * (wanted - sum_low) / (sum - sum_low) : low;
+}
+
+/// Leaves of each interval what is not steeper than this.
+void leave_out_steep(double most, KappaSet& set) {
+  int count = 0;
+  for (int i = 0; i < set.count; ++i) {
+    const KappaSet::Interval& whole = set.intervals[i];
+    const KappaSet::Interval part{std::max(whole.lo, -most), std::min(whole.hi, most)};
+    if (part.lo <= part.hi) set.intervals[count++] = part;
+  }
+  set.count = count;
 }
 
 /// The interval of the set that contains a value chosen from it.
@@ -166,8 +178,17 @@ bool is_held(const SearchModel& search, int contact, const Stop& stop) noexcept 
 bool make_leg(const Steering& steering, int contact, const Stop& from, const Stop& to,
               Work& work, Leg& leg) noexcept {
   if ((to.p_OF - from.p_OF).norm() < kShortestLeg) return false;
-  if (!is_held(steering.search, contact, from) ||
-      !is_held(steering.search, contact, to)) {
+  if (!is_held(steering.search, contact, from)) {
+    work.stopped_by.add(PushConstraint::kGravity);
+    return false;
+  }
+  return make_leg_from_held(steering, contact, from, to, work, leg);
+}
+
+bool make_leg_from_held(const Steering& steering, int contact, const Stop& from,
+                        const Stop& to, Work& work, Leg& leg) noexcept {
+  if ((to.p_OF - from.p_OF).norm() < kShortestLeg) return false;
+  if (!is_held(steering.search, contact, to)) {
     work.stopped_by.add(PushConstraint::kGravity);
     return false;
   }
@@ -212,10 +233,10 @@ bool make_held_leg(const Steering& steering, int contact, const Stop& from,
     work.stopped_by.add(PushConstraint::kOffObject);
     return false;
   }
-  for (int i = 0; i < leg.kappas.count; ++i) {
-    KappaSet::Interval& interval = leg.kappas.intervals[i];
-    interval.lo = std::clamp(interval.lo, -kMostKappa, kMostKappa);
-    interval.hi = std::clamp(interval.hi, -kMostKappa, kMostKappa);
+  leave_out_steep(std::min(kMostKappa, kMostTurn * search.model->c / length), leg.kappas);
+  if (leg.kappas.empty()) {
+    work.stopped_by.add(PushConstraint::kRotation);
+    return false;
   }
   leg.contact = contact;
   leg.from = from.p_OF;

@@ -61,6 +61,10 @@ double held_slack(const SearchModel& search, int contact, const Stop& stop) noex
 /// Whether the grasp holds gravity at the stop while a contact pushes.
 bool is_held(const SearchModel& search, int contact, const Stop& stop) noexcept;
 
+/// make_leg from a stop that is known to be held.
+bool make_leg_from_held(const Steering& steering, int contact, const Stop& from,
+                        const Stop& to, Work& work, Leg& leg) noexcept;
+
 /// make_leg between stops that are known to be held.
 bool make_held_leg(const Steering& steering, int contact, const Stop& from,
                    const Stop& to, Work& work, Leg& leg) noexcept;

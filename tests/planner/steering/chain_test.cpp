@@ -155,5 +155,37 @@ TEST_F(ChainTest, LegsAgreeWithTheSteeringOfTheirMoves) {
   EXPECT_GT(legs, 1000);
 }
 
+/// Steeper pushes stick as well, and would turn the object by more than anybody wants.
+TEST_F(ChainTest, LegsDoNotWindTheHandUp) {
+  constexpr double kMostTurn = 100.0;  // [rad]
+  Random random(7);
+  Work work{.budget = kNoBudget};
+  int legs = 0;
+  int cut = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const Vec2 from = random.in_box(0.045, 0.045);
+    const Vec2 way = random.log_in(1e-4, 1.0) * random.in_disc(0.03);
+    const int contact = random.below(static_cast<int>(search_.contacts.size()));
+    Leg leg;
+    if (!make_leg({search_}, contact, {from}, {from + way}, work, leg)) continue;
+    ++legs;
+    const KappaSet all = robust_kappas(search_.contacts[contact].stick, from,
+                                       -way.normalized(), search_.margin_from(from));
+    const double most = std::min(1e4, kMostTurn * model_.c / way.norm());
+    for (int k = 0; k < leg.kappas.count; ++k) {
+      const auto [lo, hi] = leg.kappas.intervals[k];
+      EXPECT_LE(std::max(-lo, hi), most * (1.0 + 1e-12));
+      EXPECT_TRUE(all.contains(0.5 * (lo + hi)) || hi - lo < 1e-9);
+    }
+    for (int k = 0; k < all.count; ++k) {
+      const double kappa = random.in(all.intervals[k].lo, all.intervals[k].hi);
+      EXPECT_EQ(leg.kappas.contains(kappa), std::abs(kappa) <= most);
+      cut += std::abs(kappa) > most;
+    }
+  }
+  EXPECT_GT(legs, 1000);
+  EXPECT_GT(cut, 0);
+}
+
 }  // namespace
 }  // namespace prehensile

@@ -338,7 +338,7 @@ TEST(Planner, PlansOfManyTurnsReplay) {
     for (const PlannedPush& push : plan.pushes) {
       const double turn = std::abs(push.end.X_HO.theta - push.start.X_HO.theta);
       many += turn > 30.0 ? 1 : 0;
-      EXPECT_LE(turn, 100.0 * (1.0 + 1e-9)) << index;
+      EXPECT_LE(turn, 200.0) << index;  // of two legs in a line, at most
     }
     EXPECT_TRUE(replay(model, plan).agrees) << index;
   }

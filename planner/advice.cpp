@@ -280,9 +280,11 @@ std::string paragraph(const Plan& plan, const Explanation& explanation) {
     return text +
            " None of the changes that were tried (frictions, grip force, "
            "tolerances, angle of the goal, limits and obstacles of the scene, one pusher "
-           "more) makes it solvable.";
+           "more) makes it solvable" +
+           (plan.usable() ? " with the whole margin." : ".");
   }
-  text += " It can be solved with ";
+  text += plan.usable() ? " With the whole margin it can be solved with "
+                        : " It can be solved with ";
   for (std::size_t i = 0; i < explanation.changes.size(); ++i) {
     if (i > 0) text += i + 1 == explanation.changes.size() ? "; or with " : "; with ";
     text += explanation.changes[i].what;

@@ -13,15 +13,12 @@
 #include <vector>
 
 #include "mechanics/sticking.h"
+#include "planner/loops.h"
 #include "planner/push_constraint.h"
 #include "primitives/push.h"
 #include "primitives/transition.h"
 
 namespace prehensile {
-
-/// Closed polygons of places that neither cross nor touch; what is between them is by the
-/// even-odd rule.
-using Loops = std::vector<std::vector<Vec2>>;
 
 /// One push of a plan with the numbers that the exact mechanics gives for it.
 struct PlannedPush {
@@ -98,8 +95,8 @@ std::string_view name(Proof::Kind kind);
 /// What a plan promises to survive.
 enum class Promise {
   kNominal,       ///< as asked: only the values of the scene
-  kNominalOnly,   ///< no plan was found for the margin asked for, or a part of it
-  kPartOfMargin,  ///< no plan was found for the margin asked for; this one has less
+  kNominalOnly,   ///< no plan was found for the margin asked for; this one has none
+  kPartOfMargin,  ///< likewise; this one has a part of it, which is its `margin`
   kMargin,        ///< the margin given in the options, or the usual box
   kScene,         ///< the uncertainty that the scene states
 };

@@ -24,7 +24,7 @@ namespace prehensile {
 namespace {
 
 /// Of a time limit, for plans with a margin and for a barrier; the rest is for plans
-/// without.
+/// without, and what they leave for those with a part of it.
 constexpr double kShareOfTime = 0.7;
 constexpr double kShareOfProof = 0.15;
 
@@ -163,7 +163,7 @@ Plan search_with_and_without(const Model& model, const PlanOptions& options, Wor
 }
 
 /// With `improve`: what is found without it, and what a search goes on to find, whichever
-/// is cheaper.
+/// survives more or, surviving the same, is cheaper.
 Plan search_on(const Model& model, const PlanOptions& options, Work& work) {
   if (!options.improve || options.planner != PlanOptions{}.planner) {
     return search_with_and_without(model, options, work);

@@ -222,19 +222,6 @@ std::string fault_at_half_step(const Model& model, const PlannedPush& push,
   return fault_of(model, push, done, half);
 }
 
-/// The slack of a push from where it is planned and from where the one before ends at
-/// half the step, where a replay looks: points of pads come and go one by one as the face
-/// clips them, so of a push by a point that turns the object many times next to nothing
-/// between the two may matter.
-double slack_from_both(const Model& model, const PlannedPush& push, const Grasp& at,
-                       const Margin& margin) {
-  const double planned = push_slack(model, push.start, push.push, margin);
-  const PlanarPose& from = push.start.X_HO;
-  const bool is_same = from.x == at.X_HO.x && from.y == at.X_HO.y &&
-                       from.theta == at.X_HO.theta && push.start.psi == at.psi;
-  return is_same ? planned : tighter(planned, push_slack(model, at, push.push, margin));
-}
-
 }  // namespace
 
 bool check_exactly(const Model& model, const TransitionOptions& options, Plan& plan,
@@ -248,7 +235,10 @@ bool check_exactly(const Model& model, const TransitionOptions& options, Plan& p
     push.push_force = done.max_push_force;
     push.certificate = done.worst_certificate;
     push.error_estimate = done.error_estimate;
-    push.slack = slack_from_both(model, push, at, carried(plan.margin, travelled));
+    // From where a replay begins it: points of clipped pads come and go one by one, so of
+    // a push by a point that turns the object many times next to nothing beside may
+    // matter.
+    push.slack = push_slack(model, at, push.push, carried(plan.margin, travelled));
     travelled += travel_in_pad_plane(push.push);
     std::string fault = fault_of(model, push, done, options);
     if (fault.empty()) fault = fault_at_half_step(model, push, options, at, plan);

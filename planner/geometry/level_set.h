@@ -5,8 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "planner/plan.h"
-#include "scene/frames.h"
+#include "planner/loops.h"
 
 namespace prehensile {
 

@@ -6,7 +6,6 @@
 
 #include <Eigen/LU>
 
-#include "mechanics/violation.h"
 #include "planner/obstacles/obstacle_bodies.h"
 
 namespace prehensile {
@@ -129,7 +128,7 @@ double separation(const PlacedBody& a, const PlacedBody& b) {
   for (int step = 0; step < kMostSteps; ++step) {
     const Vec3 d = v.normalized();
     const Vec3 w = support(a, -d) - support(b, d);
-    gap = worse(gap, d.dot(w));
+    gap = std::max(gap, d.dot(w));
     if (simplex.count > 0 && v.norm() - gap <= kPrecision * (1.0 + v.norm())) break;
     if (simplex.count == 4) break;  // they overlap
     simplex.add(w);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMaxCombinations = 256;
 constexpr double kMostKappa = 1e4;   // beyond it a leg is a rotation on the spot
-constexpr double kMostTurn = 100.0;  // [rad] of a leg: nobody winds a hand up so far
+constexpr double kMostTurn = 100.0;  // [rad] of a leg: as far as angles of a scene go
 
 using Intervals = std::array<KappaSet::Interval, Chain::kMaxLegs>;
 using Kappas = std::array<double, Chain::kMaxLegs>;

@@ -15,14 +15,6 @@ namespace {
 using testing::Forgery;
 using testing::told;
 
-TEST(CertificateEvidence, TheWorstOfAllIsNotANumber) {
-  EXPECT_TRUE(std::isnan(worse(kNan, 1.0)));
-  EXPECT_TRUE(std::isnan(worse(1.0, kNan)));
-  EXPECT_TRUE(std::isnan(worst_of({1.0, kNan, 2.0})));
-  EXPECT_EQ(worst_of({-1.0, -2.0}), 0.0);
-  EXPECT_EQ(worst_of({1.0, 3.0, 2.0}), 3.0);
-}
-
 TEST(CertificateEvidence, RejectsForgeriesOfEveryKindOfAnswer) {
   testing::ForgedCounts forged;
   for (int i = 0; i < 2400; ++i) {

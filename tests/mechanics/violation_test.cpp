@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mechanics/planar_problem.h"
+#include "mechanics/instant.h"
 #include "scene/constants.h"
 
 namespace prehensile {

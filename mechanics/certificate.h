@@ -68,4 +68,8 @@ double force_upper_bound(const PlanarGrasp& grasp, const PlanarWrench& p,
 /// receives the minimising twist.
 double gravity_slack(const PlanarGrasp& grasp, PlanarTwist* worst = nullptr) noexcept;
 
+/// gravity_slack(grasp) > least, for much less work where that is clear; false if the
+/// grasp makes no sense.
+bool gravity_slack_exceeds(const PlanarGrasp& grasp, double least) noexcept;
+
 }  // namespace prehensile

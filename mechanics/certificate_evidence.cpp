@@ -25,21 +25,6 @@ Vec2 velocity(const PlanarTwist& V, double x, double y) {
   return {V[0] - V[2] * y, V[1] + V[2] * x};
 }
 
-/// Sufficient for the pads to hold gravity: every point leans a share of its bound
-/// against the force, and a share that grows with the lever against the moment.
-bool clearly_held(const PlanarGrasp& grasp, const CertificateUnits& units) {
-  double square = 0.0;
-  double reach = 0.0;
-  for (int j = 0; j < grasp.count; ++j) {
-    const double r = (Vec2(grasp.x[j], grasp.y[j]) - units.centre).norm() / units.length;
-    square += grasp.bound[j] / units.force * r * r;
-    reach = std::max(reach, r);
-  }
-  const Vec3 w = units.scaled_wrench(grasp.w_g);
-  const double force_share = w.head<2>().norm() * units.force / pad_capacity(grasp);
-  return square > 0.0 && force_share + std::abs(w[2]) * reach / square < 1.0;
-}
-
 /// Wrench of a force at p.
 Vec3 wrench_at(const CertificateUnits& units, const Vec2& p, const Vec2& f) {
   const Vec2 r = (p - units.centre) / units.length;
@@ -287,7 +272,7 @@ double evidence_violation(const PlanarGrasp& grasp, const PlanarDrive& drive,
                           const PlanarInstant& answer, const CertificateUnits& units) {
   const auto held_and_claimed = [&] {
     if (!grasp.inertia.isZero(0.0)) return 0.0;
-    if (!clearly_held(grasp, units) && gravity_slack(grasp) < -kClaimed) return kFails;
+    if (!gravity_slack_exceeds(grasp, -kClaimed)) return kFails;
     const double size = units.scaled_twist(answer.V_HO).norm();
     return motion_claim_violation(drive, answer, size, units.force, units.rate);
   };

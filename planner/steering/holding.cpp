@@ -24,80 +24,8 @@ constexpr double kSurelyNotHeld = 1.0 - 1.06;
 /// Work of asking the pads point by point, in stick tests.
 constexpr std::int64_t kExactCheck = 50;
 
-/// Pads and gravity about the middle of their friction.
-class HeldAboutMiddle {
- public:
-  explicit HeldAboutMiddle(const PlanarGrasp& grasp)
-      : grasp_(grasp), capacity_(grasp.capacity()), weight_(grasp.w_g.head<2>()) {
-    for (int j = 0; j < grasp.count; ++j) {
-      middle_ += grasp.bound[j] / capacity_ * Vec2(grasp.x[j], grasp.y[j]);
-    }
-    for (int j = 0; j < grasp.count; ++j) {
-      spin_ += grasp.bound[j] * lever(j).norm();
-    }
-    moment_ = grasp.w_g[2] - cross(middle_, weight_);
-  }
-
-  /// Decided by the friction of a few twists, or not.
-  std::optional<bool> decided() const {
-    if (!(spin_ > 0.0)) return std::nullopt;
-    if (adds_up(friction_in(Vec2::Zero(), moment_ < 0.0 ? -1.0 : 1.0))) return true;
-    const double radius = spin_ / capacity_;
-    for (const double stretch : std::array{1.0, 0.7, 1.4}) {
-      const double turning = stretch * radius;
-      const double omega = moment_ / (turning * turning);
-      const Friction friction = friction_in(weight_, omega);
-      if (weight_.squaredNorm() + moment_ * omega > friction.power) return false;
-      if (adds_up(friction)) return true;
-    }
-    return std::nullopt;
-  }
-
- private:
-  struct Friction {
-    Vec2 force = Vec2::Zero();
-    double moment = 0.0;
-    double power = 0.0;
-  };
-
-  /// Of pads that move with this twist.
-  Friction friction_in(const Vec2& velocity, double omega) const {
-    Friction sum;
-    for (int j = 0; j < grasp_.count; ++j) {
-      const Vec2 r = lever(j);
-      const Vec2 slip = velocity + omega * perp(r);
-      const double rate = slip.norm();
-      if (!(rate > 0.0)) continue;
-      const Vec2 force = grasp_.bound[j] / rate * slip;
-      sum.force += force;
-      sum.moment += cross(r, force);
-      sum.power += grasp_.bound[j] * rate;
-    }
-    return sum;
-  }
-
-  /// Shares of this friction and of that of a translation make up gravity, with something
-  /// to spare.
-  bool adds_up(const Friction& friction) const {
-    constexpr double kSum = 0.999;
-    const double share = moment_ == 0.0 ? 0.0 : moment_ / friction.moment;
-    const Vec2 rest = weight_ - share * friction.force;
-    return share >= 0.0 && share + rest.norm() / capacity_ < kSum;
-  }
-
-  Vec2 lever(int j) const { return Vec2(grasp_.x[j], grasp_.y[j]) - middle_; }
-
-  const PlanarGrasp& grasp_;
-  double capacity_;  // [N]
-  Vec2 weight_;      // [N]
-  Vec2 middle_ = Vec2::Zero();
-  double spin_ = 0.0;    // [Nm] of friction in a turn about the middle
-  double moment_ = 0.0;  // [Nm] of gravity about it
-};
-
 bool is_held(const PlanarGrasp& grasp) {
-  if (const auto held = HeldAboutMiddle(grasp).decided()) return *held;
-  return gravity_slack(grasp) > kFirmlyHeld;
+  return gravity_slack_exceeds(grasp, kFirmlyHeld);
 }
 
 /// Pads that are not round, or not whole, hold other moments at other angles.

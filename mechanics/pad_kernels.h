@@ -59,6 +59,18 @@ inline PlanarWrench resisting_wrench(const PaddedColumns& pads, const PlanarTwis
   return {fx.sum(), fy.sum(), m.sum()};
 }
 
+/// Force along m of the gradient of D at u.
+inline double resisting_force(const PaddedColumns& pads, const PlanarTwist& u,
+                              const Vec2& m) {
+  ++*pads.sums;
+  Lanes sum = Lanes::Zero();
+  for (int j = 0; j < pads.padded; j += PaddedColumns::kLanes) {
+    const PointLanes at(pads, j, u);
+    sum += at.b * (m.x() * at.cx + m.y() * at.cy) / at.square.sqrt();
+  }
+  return sum.sum();
+}
+
 /// First and second derivative of D along d.
 struct LineSlope {
   double first;

@@ -22,6 +22,11 @@ SlideEquation::Value SlideEquation::at(double s) const noexcept {
           question.m.dot(turned.head<2>())};
 }
 
+double SlideEquation::gap(double s) const noexcept {
+  return pad_kernels::resisting_force(pads, question.V + s * question.t, question.m) -
+         question.target;
+}
+
 bool SlideEquation::polish(double& s) const noexcept {
   for (int step = 0; step < kNewtonSteps; ++step) {
     const Value value = at(s);
@@ -66,11 +71,11 @@ int SlideEquation::scan(double scale, int capacity, double* roots) const noexcep
 
   int count = 0;
   double a = question.start;
-  double gap_a = at(a).gap;
+  double gap_a = gap(a);
   for (int k = 0; k < size && count < capacity; ++k) {
     const double b = grid[k];
     if (!nearer(a, b)) continue;
-    const double gap_b = at(b).gap;
+    const double gap_b = gap(b);
     if (gap_a * gap_b < 0.0) roots[count++] = refine(a, gap_a, b);
     a = b;
     gap_a = gap_b;

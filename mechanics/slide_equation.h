@@ -25,6 +25,7 @@ struct SlideEquation {
     double slope;
   };
   Value at(double s) const noexcept;
+  double gap(double s) const noexcept;
   double refine(double a, double gap_a, double b) const noexcept;
 };
 

@@ -78,6 +78,7 @@ ContactRegion::ContactRegion(const Scene& scene, int points)
   const auto* point = std::get_if<PointPad>(&scene.gripper.pad);
   if (point && point->spin_radius) torque_radius_ = *point->spin_radius;
   if (clips_ && !is_point) {
+    convex_ = is_convex(outline_);
     pieces_ = triangulate(outline_);
     cells_ = pad_cells(pad_, scene.gripper.pressure, kCellsPerSide);
   }
@@ -121,7 +122,7 @@ ContactPoints ContactRegion::clipped_by_face(const PlanarPose& X_HO) const noexc
   const CellFrame frame(X_OH);
   double within = 0.0;
   for (const PadCell& cell : cells_) within = std::max(within, cell.within);
-  const NearOutline near(outline_, translation(X_OH), within);
+  const NearOutline near(outline_, convex_, translation(X_OH), within);
   double total = 0.0;
   double pressed = 0.0;
   for (const PadCell& cell : cells_) {
@@ -133,7 +134,7 @@ ContactPoints ContactRegion::clipped_by_face(const PlanarPose& X_HO) const noexc
       part = press_at_edge(cell, close.only->a, close.only->b, frame);
     } else if (close.count > 0) {
       part = press(cell, pieces_, frame);
-    } else if (is_inside(outline_, middle)) {
+    } else if (close.inside) {
       part = {cell.measure, cell.centroid};
     }
     if (part.measure <= 0.0) continue;

@@ -17,8 +17,8 @@ bool is_inside(const std::vector<Vec2>& outline, const Vec2& p);
 /// outlive it.
 class NearOutline {
  public:
-  /// Edges farther away than `radius` [m] are left out.
-  NearOutline(const std::vector<Vec2>& outline, const Vec2& centre,
+  /// Counter-clockwise. Edges farther away than `radius` [m] are left out.
+  NearOutline(const std::vector<Vec2>& outline, bool is_convex, const Vec2& centre,
               double radius) noexcept;
 
   struct Edge {
@@ -31,18 +31,31 @@ class NearOutline {
   struct Close {
     int count = 0;               ///< 2: two or more, or some of too many nearby
     const Edge* only = nullptr;  ///< where there is one
+    bool inside = false;         ///< where there is none: whether the point is
   };
 
   /// Those closer than `distance` to p, all of which must be no farther than `within`
   /// from the centre.
-  Close close_to(const Vec2& p, double distance, double within) const noexcept;
+  Close close_to(const Vec2& p, double distance, double within) const noexcept {
+    if (count_ == 1) {  // mostly, and mostly farther by its line already
+      const Edge& edge = near_[0];
+      const double area = cross(edge.b - edge.a, p - edge.a);
+      if (area * area > distance * distance * edge.squared_length) {
+        return {0, nullptr, area > 0.0};
+      }
+    }
+    return close_to_any(p, distance, within);
+  }
 
  private:
+  Close close_to_any(const Vec2& p, double distance, double within) const noexcept;
+
   static constexpr std::size_t kMostNear = 32;  // where there are more, all are looked at
 
   const std::vector<Vec2>& outline_;
   std::array<Edge, kMostNear> near_;
   std::size_t count_ = 0;
+  bool sides_tell_ = false;  ///< what is left of the edges nearby is inside
 };
 
 }  // namespace prehensile

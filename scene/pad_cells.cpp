@@ -230,9 +230,9 @@ PressedCell press_at_edge(const PadCell& cell, const Vec2& a, const Vec2& b,
                           const CellFrame& frame) noexcept {
   CellShape cut;
   const bool is_cut = clip(cell.shape, frame.in_hand(a), frame.in_hand(b), cut);
-  const CellShape& part = is_cut ? cut : cell.shape;
-  if (!is_cell(part, cell.shape)) return {};
-  const Measured pressed = measured(part);
+  if (!is_cut) return {cell.measure, cell.centroid};
+  if (!is_cell(cut, cell.shape)) return {};
+  const Measured pressed = measured(cut);
   if (!(pressed.measure > kRounding * cell.measure)) return {};
   return {pressed.measure, cell.centroid + pressed.centroid - cell.middle};
 }

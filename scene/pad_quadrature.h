@@ -55,13 +55,13 @@ struct CellShape {
 
 /// A small convex part of the pad in H; a line pad is cut into segments.
 struct PadCell {
-  CellShape shape;
   double measure = 0.0;          ///< [m^2], or [m] for a segment
   Vec2 centroid = Vec2::Zero();  ///< [m]
-  Vec2 middle = Vec2::Zero();    ///< [m] the centroid before it is scaled
   double reach = 0.0;            ///< [m] farthest vertex from the centroid
   double within = 0.0;           ///< [m] of the finger axis: no vertex is farther
   double pressure = 1.0;         ///< at the centroid, up to a factor common to the pad
+  Vec2 middle = Vec2::Zero();    ///< [m] the centroid before it is scaled
+  CellShape shape;               ///< last: it is looked at where an edge cuts the cell
 };
 
 /// Cuts a pad into cells, `per_side` along each side, scaled about the finger axis by the

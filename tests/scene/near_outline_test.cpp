@@ -26,7 +26,7 @@ struct Case {
       : outline(random_star(3 + random.below(most_vertices), random)),
         centre(random.in_box(0.07, 0.07)),
         radius(random.log_in(1e-3, 0.05)),
-        near(outline, centre, radius) {}
+        near(outline, is_convex(outline), centre, radius) {}
   std::vector<Vec2> outline;
   Vec2 centre;
   double radius;
@@ -35,7 +35,7 @@ struct Case {
 
 TEST(NearOutline, KnowsTheEdgesThatAreClose) {
   Random random(2);
-  int only = 0, more = 0, many = 0;
+  int only = 0, more = 0, many = 0, inside = 0, outside = 0;
   for (int i = 0; i < 1500; ++i) {
     const Case made(i % 2 == 0 ? 20 : 60, random);
     const auto& [outline, centre, radius, near] = made;
@@ -52,6 +52,10 @@ TEST(NearOutline, KnowsTheEdgesThatAreClose) {
       }
       const NearOutline::Close found = near.close_to(p, distance, within);
       ASSERT_EQ(found.count == 0, close.empty()) << i;
+      if (found.count == 0 && distance > 1e-9) {
+        ASSERT_EQ(found.inside, is_inside(outline, p)) << i;
+        (found.inside ? inside : outside) += 1;
+      }
       ASSERT_LE(found.count, 2);
       if (found.only) {
         ++only;
@@ -69,6 +73,8 @@ TEST(NearOutline, KnowsTheEdgesThatAreClose) {
   EXPECT_GT(only, 1000);
   EXPECT_GT(more, 1000);
   EXPECT_LT(many, only);
+  EXPECT_GT(inside, 1000);
+  EXPECT_GT(outside, 1000);
 }
 
 }  // namespace

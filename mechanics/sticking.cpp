@@ -13,16 +13,29 @@ namespace {
 constexpr double kEllipsoidMoment = 1e-9;  // tolerances at a point contact, over F c
 constexpr double kPadMoment = 1e-3;
 
+/// A rotation that is done many times.
+struct Turn {
+  double cos, sin;
+
+  explicit Turn(double angle) : cos(std::cos(angle)), sin(std::sin(angle)) {}
+  Vec2 forth(const Vec2& v) const {
+    return {cos * v.x() - sin * v.y(), sin * v.x() + cos * v.y()};
+  }
+  Vec2 back(const Vec2& v) const {
+    return {cos * v.x() + sin * v.y(), cos * v.y() - sin * v.x()};
+  }
+};
+
 /// Drag of the real pads over F, in O, for a twist of any scale, the points moved away
 /// from the finger axis by `stretch`.
-PadDrag pad_drag(const Model& model, const PlanarGrasp& grasp, double theta,
+PadDrag pad_drag(const Model& model, const PlanarGrasp& grasp, const Turn& theta,
                  const Vec2& velocity, double omega, double stretch) {
   if (model.has_soft_points()) {
     return drag_of_ellipsoid(stretch * model.c, velocity, omega);
   }
   const PadDrag drag = drag_of_points(grasp.count, grasp.x, grasp.y, grasp.bound, stretch,
-                                      rotated(theta, velocity), omega);
-  return {rotated(-theta, drag.force) / model.F, drag.moment / model.F};
+                                      theta.forth(velocity), omega);
+  return {theta.back(drag.force) / model.F, drag.moment / model.F};
 }
 
 /// Push wrench on the object over F: what remains of the drag after gravity.
@@ -236,7 +249,8 @@ double robust_slack(const StickContact& contact, const Vec2& p_OF, const Vec2& v
 
 StickTest exact_stick_test(const Model& model, const PushContact& contact, double place,
                            const PlanarPose& X_HO, const Vec2& e, double v, double omega,
-                           const Margin& margin, double travelled) noexcept {
+                           const Margin& margin, double travelled,
+                           double least) noexcept {
   StickTest test;
   if (v == 0.0 && omega == 0.0) return test;
   const PlanarGrasp grasp = grasp_at(model, X_HO, contact.g_O);
@@ -247,11 +261,13 @@ StickTest exact_stick_test(const Model& model, const PushContact& contact, doubl
   StickContact stick = stick_contact(model, contact, place);
   if (stick.c == 0.0) stick.c = model.L;  // a point pad has no torque to count moments in
   const Vec2 p_OF = finger_in_object(X_HO);
+  const Turn theta(X_HO.theta);
   const auto drag_at = [&](const Vec2& direction, double stretch) {
-    return pad_drag(model, grasp, X_HO.theta, v * direction, omega, stretch);
+    return pad_drag(model, grasp, theta, v * direction, omega, stretch);
   };
   const PadDrag nominal = drag_at(e, 1.0);
   test = reported(stick, p_OF, nominal, model.F * contact.grip_share, kPadMoment);
+  if (test.slack < least) return test;
   const StickContact weak = weakened(stick, margin);
   const Vec2 p_OF_begin = p_OF + travelled * e;
   const bool turns_drag = model.region.is_isotropic();  // by as much as the motion
@@ -260,6 +276,7 @@ StickTest exact_stick_test(const Model& model, const PushContact& contact, doubl
   test.slack = std::min({test.slack, slack_of_drag(weak, path, nominal, margin, tilts),
                          advance(stick, weak.a, weak.b, p_OF, v * e, omega, margin)});
   const auto keep = [&](const Vec2& direction, double stretch, const FingerPath& at) {
+    if (test.slack < least) return;
     const PadDrag drag = drag_at(direction, stretch);
     test.slack = std::min(test.slack, slack_of_drag(weak, at, drag, margin, tilts));
   };

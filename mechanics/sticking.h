@@ -157,10 +157,12 @@ double robust_slack(const StickContact& contact, const Vec2& p_OF, const Vec2& v
 /// v == 0 turns it about the finger axis; NaN where nothing moves. Slack -infinity where
 /// the pads have lost the face. At a point pusher a moment within 1e-3 F c counts as met:
 /// the quadrature of a disc is isotropic to that order only. A pad point at the centre of
-/// rotation, whose friction has no direction, counts as zero. No heap.
-StickTest exact_stick_test(const Model& model, const PushContact& contact, double place,
-                           const PlanarPose& X_HO, const Vec2& e, double v, double omega,
-                           const Margin& margin, double travelled = 0.0) noexcept;
+/// rotation, whose friction has no direction, counts as zero. Of a slack below `least`,
+/// anything below it may be returned, which is faster. No heap.
+StickTest exact_stick_test(
+    const Model& model, const PushContact& contact, double place, const PlanarPose& X_HO,
+    const Vec2& e, double v, double omega, const Margin& margin, double travelled = 0.0,
+    double least = -std::numeric_limits<double>::infinity()) noexcept;
 
 /// By so much the moment of gravity about the finger axis may be greater within this
 /// margin than at its most weight alone [N m].

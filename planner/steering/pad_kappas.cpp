@@ -61,7 +61,7 @@ class PadTrial {
     const Model& model = *search_.model;
     const StickTest test =
         exact_stick_test(model, model.contacts[pusher_.contact], pusher_.place, X_HO, e_,
-                         1.0, kappa / model.c, margin_, travelled);
+                         1.0, kappa / model.c, margin_, travelled, 0.0);
     return test.slack >= 0.0;
   }
 

@@ -115,7 +115,7 @@ struct Motion {
 /// points of a pad pull aside as they turn, so that no one place does for all of it, and
 /// a push that ends where the move does is found later (meet_end.h).
 StickTest pad_test(const SearchModel& search, const Move& move, double place,
-                   double share, const Margin& margin) {
+                   double share, const Margin& margin, double least = -kInfinity) {
   const SearchContact& pushing = search.contacts[move.contact];
   const PushContact& contact = search.model->contacts[pushing.contact];
   const Motion motion(move.from, move.to);
@@ -123,7 +123,7 @@ StickTest pad_test(const SearchModel& search, const Move& move, double place,
     return exact_stick_test(*search.model, contact, there,
                             pose_along(move.from, move.to, share),
                             motion.direction(contact.n), motion.travel(), motion.omega,
-                            over, share * motion.travel());
+                            over, share * motion.travel(), least);
   };
   if (contact.is_point) {
     const double wanted = test_at(place, Margin::none()).centre_of_pressure;
@@ -306,12 +306,13 @@ double move_slack(const SearchModel& search, const Move& move, int points,
   const double place = place_of(search, move);
   const Margin margin = search.margin_from(move.from.p_OF);
   double least = std::numeric_limits<double>::infinity();
+  work.stick_tests += points;
   for (int i = 0; i < points; ++i) {
-    ++work.stick_tests;
     const double share = static_cast<double>(i) / (points - 1);
-    least = std::min(least, pad_test(search, move, place, share, margin).slack);
+    least = std::min(
+        least, pad_test(search, move, place, share, margin, -kStickTolerance).slack);
+    if (!(least >= -kStickTolerance)) return least;
   }
-  if (!(least >= -kStickTolerance)) return least;
   return std::min(least, slack_of_spread_pads(search, move, kSpreadParts, work));
 }
 

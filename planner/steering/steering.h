@@ -121,7 +121,7 @@ std::optional<Move> direct_move(const SearchModel& search, const FlatState& from
                                 int preferred = -1) noexcept;
 
 /// Least robust slack of a move with the real pad, checked at `points` >= 2 places along
-/// it, its ends included. No heap.
+/// it, its ends included; of one that does not stick, any slack that says so. No heap.
 double move_slack(const SearchModel& search, const Move& move, int points,
                   Work& work) noexcept;
 

@@ -1,6 +1,7 @@
 /// Stick tests against the instants that know of slip: the contact sticks exactly where
 /// the solver, free to let it slip or open, finds the object moving with the pusher.
 #include <cstdio>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -132,6 +133,34 @@ TEST(StickingInstants, PlanarSolverSticksExactlyWhereTheTestSays) {
   EXPECT_LT(count.force_error, 1e-7);
   EXPECT_GT(count.compared, cases * 9 / 10);
   EXPECT_GT(count.stuck, cases / 10);
+}
+
+/// A test that may end early says no less of whether the slack is below what was named.
+TEST(StickingInstants, EndingEarlyDecidesAlike) {
+  Random random(3);
+  int above = 0;
+  int below = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Case c = random_case(random);
+    const Margin margin = Margin{}.scaled(random.in(0.0, 2.0));
+    const double travelled = random.in(0.0, 0.05);
+    const auto slack = [&](double least) {
+      return exact_stick_test(c.model, c.contact, c.place, c.X_HO, c.e, 1.0, c.omega,
+                              margin, travelled, least)
+          .slack;
+    };
+    const double whole = slack(-std::numeric_limits<double>::infinity());
+    for (const double least : {-0.2, 0.0, 0.1}) {
+      const double known = slack(least);
+      ASSERT_EQ(known < least, whole < least) << i;
+      if (!(whole < least)) {
+        EXPECT_EQ(known, whole) << i;
+      }
+      (whole < least ? below : above) += 1;
+    }
+  }
+  EXPECT_GT(above, 500);
+  EXPECT_GT(below, 500);
 }
 
 }  // namespace

@@ -56,12 +56,30 @@ const std::vector<LastLeg>& LegGraph::last_legs(int node) {
 }
 
 bool LegGraph::make(int contact, int from, int to, Leg& leg) {
-  if (!make_held_leg(steering_, contact, stop_at(from), stop_at(to), work_, leg)) {
-    return false;
-  }
+  if (!make_once(contact, from, to, leg)) return false;
   const auto known = kappas_.find({contact, from, to});
   if (known != kappas_.end()) leg.kappas = known->second;
   return !leg.kappas.empty();
+}
+
+/// What real pads allow takes long to measure: it is measured once, and counts as work
+/// each time, so that it does not matter to what a search comes by its budget.
+bool LegGraph::make_once(int contact, int from, int to, Leg& leg) {
+  const auto make = [&] {
+    return make_held_leg(steering_, contact, stop_at(from), stop_at(to), work_, leg);
+  };
+  if (!steering_.real_pads || steering_.envelope) return make();
+  const auto known = measured_.find({contact, from, to});
+  if (known != measured_.end()) {
+    if (work_.interrupted()) return false;
+    leg = known->second.leg;
+    work_.stick_tests += known->second.stick_tests;
+    return true;
+  }
+  const std::int64_t before = work_.stick_tests;
+  if (!make()) return false;
+  measured_[{contact, from, to}] = {leg, work_.stick_tests - before};
+  return true;
 }
 
 void LegGraph::narrow(const Leg& leg, int from, int to) {

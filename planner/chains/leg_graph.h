@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <vector>
@@ -59,10 +60,17 @@ class LegGraph {
     int from, to, place;  // one of the last two is negative
   };
 
+  struct Measured {
+    Leg leg;
+    std::int64_t stick_tests = 0;  // that it took
+  };
+  using LegName = std::array<int, 3>;  // contact and nodes
+
   /// Where a push begins or ends.
   Stop stop_at(int node) const { return {nodes_[node], node == start()}; }
   bool usable(int node, int contact);
   bool is_usable(int node, int contact);
+  bool make_once(int contact, int from, int to, Leg& leg);
   void append_edges(const Leg& leg, int to, std::vector<LegEdge>& edges) const;
   void renew_edges(const Narrowed& narrowed);
 
@@ -75,8 +83,8 @@ class LegGraph {
   std::vector<std::optional<std::vector<LegEdge>>> rows_;       // by node and contact
   std::vector<std::optional<bool>> usable_;                     // likewise
   std::vector<std::optional<std::vector<LastLeg>>> last_legs_;  // by node
-  using KappasOfLegs = std::map<std::array<int, 3>, KappaSet>;  // by contact and nodes
-  KappasOfLegs kappas_;                                         // of narrowed legs
+  std::map<LegName, KappaSet> kappas_;                          // of narrowed legs
+  std::map<LegName, Measured> measured_;                        // of chains, by real pads
   std::vector<Narrowed> narrowed_;                              // not in edges yet
 };
 

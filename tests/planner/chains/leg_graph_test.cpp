@@ -95,5 +95,38 @@ TEST(LegGraph, RemembersNarrowedLegs) {
   EXPECT_GT(lost, 20);
 }
 
+/// What real pads allow is measured once, and is as much work each time.
+TEST(LegGraph, ALegMadeAgainIsTheSameForTheSameWork) {
+  int legs = 0;
+  for (std::uint64_t i = 0; i < 10; ++i) {
+    Case c(i);
+    c.steering.real_pads = true;
+    const int node = c.graph.start();
+    for (int contact = 0; contact < c.graph.contacts(); ++contact) {
+      const std::vector<LegEdge> edges = c.graph.edges(node, contact);
+      for (const LegEdge& edge : edges) {
+        const auto made = [&] {
+          Leg leg;
+          const std::int64_t before = c.work.stick_tests;
+          EXPECT_TRUE(c.graph.make(contact, node, edge.to, leg));
+          return std::pair(leg, c.work.stick_tests - before);
+        };
+        const auto [first, work] = made();
+        const auto [again, same_work] = made();
+        EXPECT_EQ(again.length, first.length);
+        ASSERT_EQ(again.kappas.count, first.kappas.count);
+        for (int k = 0; k < first.kappas.count; ++k) {
+          EXPECT_EQ(again.kappas.intervals[k].lo, first.kappas.intervals[k].lo);
+          EXPECT_EQ(again.kappas.intervals[k].hi, first.kappas.intervals[k].hi);
+        }
+        EXPECT_EQ(same_work, work);
+        EXPECT_GT(work, 20);  // trials of many kappas
+        ++legs;
+      }
+    }
+  }
+  EXPECT_GT(legs, 50);
+}
+
 }  // namespace
 }  // namespace prehensile

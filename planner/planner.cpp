@@ -91,7 +91,8 @@ Plan with_part_of_margin(const Model& model, const PlanOptions& options,
     if (!rest || Limits(options, work).stopped()) break;
     work.budget = work.done() + work_with_margin(options);
     Found found;
-    Plan plan = search_and_check(model, *rest, margin.scaled(share), work, found);
+    Plan plan = search_and_check(model, *rest, margin.scaled(share), work, found,
+                                 Asked::kPartOfMargin);
     const std::int64_t instants = best.instants + plan.instants;
     const bool survives = plan.usable();
     if (survives) {

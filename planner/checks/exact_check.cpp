@@ -147,10 +147,9 @@ int places_along(double travel, double turn) noexcept {
 }
 
 double push_slack(const Model& model, const Grasp& start, const Push& push,
-                  const Margin& margin) {
+                  const Margin& margin, int most_spread_parts) {
   if (const auto* roll = std::get_if<Roll>(&push))
     return roll_slack(model, start, *roll, margin);
-  constexpr int kMostSpreadParts = 100;
   const LinearPush linear = as_linear(push);
   const PushContact& contact = model.contacts[linear.contact];
   const Vec2 p_OF = finger_in_object(start.X_HO);
@@ -161,7 +160,7 @@ double push_slack(const Model& model, const Grasp& start, const Push& push,
     slack = ring_slack(model, contact, p_OF, linear.e, linear.travel, linear.turn);
   } else if (has_clipped_discs(model)) {
     slack = spread_slack_along(model, contact, p_OF, linear.e, linear.travel, linear.turn,
-                               kMostSpreadParts);
+                               most_spread_parts);
   }
   for (int i = 0; i < points; ++i) {
     const double s = static_cast<double>(i) / (points - 1);

@@ -16,10 +16,10 @@ int places_along(double travel, double turn) noexcept;
 
 /// Least slack over the margin box along a push that starts at this grasp, by the real
 /// pad, in the pad plane, at places along the way that the object takes; of discs without
-/// a margin also as they are when spread over all angles. Infinity for a roll, which has
-/// no margin box.
+/// a margin also as they are when spread over all angles, clipped ones in at most so many
+/// parts of the way. Infinity for a roll, which has no margin box.
 double push_slack(const Model& model, const Grasp& start, const Push& push,
-                  const Margin& margin);
+                  const Margin& margin, int most_spread_parts = 100);
 
 /// Whether the pads stay on the object during the pushes of a plan over its margin, as
 /// far as its start and its goal allow; also says which push does not.

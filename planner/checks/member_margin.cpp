@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 
 #include "planner/checks/exact_check.h"
 #include "planner/checks/meet_end.h"
@@ -29,6 +30,9 @@ UncertaintyBox box_of(const Margin& margin) {
   return box;
 }
 
+/// Longest step at a first glance, of a push.
+constexpr double kGlance = 0.25;
+
 /// Whether the face clips the pads at an end of a push, or between.
 bool is_clipped(const Model& model, const PlannedPush& planned) {
   if (std::holds_alternative<Roll>(planned.push)) return false;
@@ -41,6 +45,47 @@ bool is_clipped(const Model& model, const PlannedPush& planned) {
   return false;
 }
 
+/// The box of a plan's margin, and its members one by one.
+class Members {
+ public:
+  Members(const Model& model, const Plan& plan, bool by_points)
+      : model_(model), plan_(plan), by_points_(by_points), box_(box_of(plan.margin)) {}
+
+  bool is_empty() const { return box_.active().empty(); }
+
+  /// What becomes of the plan in a member that does not survive it, or nothing.
+  std::optional<PlanTrial> failed(std::uint64_t member,
+                                  const TransitionOptions& options) const {
+    BoxPoint at = corner(box_, member * kStride);
+    at[static_cast<std::size_t>(Unknown::kFriction)] = -1.0;
+    const PlanTrial trial = try_plan(model_, plan_, box_, at, options);
+    if (trial.sticks) return std::nullopt;
+    // Without a first push the start is off the object, which is given.
+    if (!trial.is_scene && trial.failed_push < 0) return std::nullopt;
+    // Where the fingers hold the object, and where the pads stay on it, is known without
+    // members (holding_check.h, stays_on_object).
+    const bool is_lost = trial.status == TransitionStatus::kFalls ||
+                         trial.status == TransitionStatus::kPadLost;
+    if (!by_points_ && is_lost) return std::nullopt;
+    return trial;
+  }
+
+ private:
+  const Model& model_;
+  const Plan& plan_;
+  bool by_points_;
+  UncertaintyBox box_;
+};
+
+std::string fault_of(const PlanTrial& trial) {
+  const bool slips = trial.status == TransitionStatus::kCompleted;
+  return "push " + std::to_string(trial.failed_push + 1) +
+         ": a member of the box within the margin " +
+         (!trial.is_scene ? "has no such contact"
+          : slips         ? "slips"
+                          : "ends: " + std::string(name(trial.status)));
+}
+
 }  // namespace
 
 std::string member_margin_fault(const Model& model, const Plan& plan,
@@ -48,30 +93,21 @@ std::string member_margin_fault(const Model& model, const Plan& plan,
   const bool by_points =
       std::any_of(plan.pushes.begin(), plan.pushes.end(),
                   [&](const PlannedPush& push) { return is_by_point(model, push.push); });
-  const UncertaintyBox box = box_of(plan.margin);
+  const Members members(model, plan, by_points);
   const auto clips = [&](const PlannedPush& push) { return is_clipped(model, push); };
-  if (box.active().empty() ||
+  if (members.is_empty() ||
       (!by_points && !model.cross_section && std::ranges::none_of(plan.pushes, clips))) {
     return {};
   }
-  for (std::uint64_t i = 0; i < kTrials; ++i) {
-    BoxPoint at = corner(box, i * kStride);
-    at[static_cast<std::size_t>(Unknown::kFriction)] = -1.0;
-    const PlanTrial trial = try_plan(model, plan, box, at, options);
-    if (trial.sticks) continue;
-    // Without a first push the start is off the object, which is given.
-    if (!trial.is_scene && trial.failed_push < 0) continue;
-    // Where the fingers hold the object, and where the pads stay on it, is known without
-    // members (holding_check.h, stays_on_object).
-    const bool is_lost = trial.status == TransitionStatus::kFalls ||
-                         trial.status == TransitionStatus::kPadLost;
-    if (!by_points && is_lost) continue;
-    const bool slips = trial.status == TransitionStatus::kCompleted;
-    return "push " + std::to_string(trial.failed_push + 1) +
-           ": a member of the box within the margin " +
-           (!trial.is_scene ? "has no such contact"
-            : slips         ? "slips"
-                            : "ends: " + std::string(name(trial.status)));
+  // Most members that fail do so at a first glance, which costs little; closely looked at
+  // is what that suspects, and then everything.
+  TransitionOptions glance = options;
+  glance.max_step = std::max(options.max_step, kGlance);
+  for (const bool is_glance : {true, false}) {
+    for (std::uint64_t i = 0; i < kTrials; ++i) {
+      if (is_glance && !members.failed(i, glance)) continue;
+      if (const auto trial = members.failed(i, options)) return fault_of(*trial);
+    }
   }
   return {};
 }

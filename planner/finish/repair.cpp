@@ -12,7 +12,7 @@
 namespace prehensile {
 namespace {
 
-constexpr int kEvaluations = 1500;
+constexpr int kEvaluations = 500;
 constexpr double kFirstStep = 0.01;      // over L
 constexpr double kWanted = 0.01;         // slack of each push: more is no better
 constexpr double kEnough = 1e-6;         // above rounding
@@ -20,6 +20,7 @@ constexpr double kForbidden = 1.0;       // charge for a push off the object, or
 constexpr double kReach = 0.5;           // of a way-point from its place, over L
 constexpr double kWorst = -10.0;         // slacks below it count as this
 constexpr std::size_t kMostPushes = 24;  // beyond it sub-plex gains too little
+constexpr int kSpreadParts = 8;          // of a push over clipped discs
 constexpr std::int64_t kLook = 10;       // work of the slack of a push, in stick tests
 
 /// The way-points of one stretch as variables: x, y of p_OF and c theta [m].
@@ -87,7 +88,8 @@ class StretchRepair {
         sticks = false;
       }
       const PlannedPush& push = part.pushes.back();
-      const double slack = push_slack(*search_.model, push.start, push.push, margin);
+      const double slack =
+          push_slack(*search_.model, push.start, push.push, margin, kSpreadParts);
       work_.other += kLook;
       const double short_of = std::max(0.0, kWanted - std::max(slack, kWorst));
       missing += short_of * short_of;

@@ -126,7 +126,7 @@ void set_undecided(Plan& plan, std::string message) {
 }
 
 Plan search_and_check(const Model& model, const PlanOptions& options,
-                      const Margin& margin, Work& work, Found& found) {
+                      const Margin& margin, Work& work, Found& found, Asked asked) {
   const auto begin = std::chrono::steady_clock::now();
   work.found_cheaper = 0;
   Plan plan =
@@ -162,7 +162,7 @@ Plan search_and_check(const Model& model, const PlanOptions& options,
   }
   if (failed_check() && margin.is_none()) {
     again({margin, kClearOfBorder}, "; a little clear of slipping: ");
-  } else if (failed_check()) {
+  } else if (failed_check() && asked == Asked::kWholeMargin) {
     again({margin.scaled(2.0)}, "; with double the margin: ");
   }
   for (const double unused : kUnusedFriction) {

@@ -16,13 +16,18 @@ struct Found {
   bool is_repaired = false;  ///< what passed the check is the plan repaired
 };
 
+/// What a search is for. A part of a margin is asked for where the whole failed with all
+/// that is tried here: with double the part nothing is tried again.
+enum class Asked { kWholeMargin, kPartOfMargin };
+
 /// A plan that fails its exact check is searched again, first without a look for what is
 /// cheaper than the first plan found, if it took its place, then farther from slipping by
 /// what its detours carry the finger axis off, then with double the margin, then with
 /// less friction than there is, then without one of its contacts. A dear one that passes
 /// once it is repaired is searched again once, and the cheaper is kept.
 Plan search_and_check(const Model& model, const PlanOptions& options,
-                      const Margin& margin, Work& work, Found& found);
+                      const Margin& margin, Work& work, Found& found,
+                      Asked asked = Asked::kWholeMargin);
 
 /// Empties a plan that fails a check, and says why.
 void set_undecided(Plan& plan, std::string message);

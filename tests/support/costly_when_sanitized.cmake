@@ -14,6 +14,7 @@ set(costly_when_sanitized
   Bounder.SurestIsAboveWhatWasSeen
   Cheapen.DearMovesCostAFewPushes
   Cheapen.ImprovedPlansUseOneContactWhereItDoes
+  Cheapen.ProgressTellsCostsOfWholePlans
   ClearPlaces.AreFoundWhereThereAreAny
   ClearPlaces.LeadToAPlan
   ClippedLaw.WhatItDeniesNoInstantDoes
@@ -51,6 +52,7 @@ set(costly_when_sanitized
   Planner.WithoutTheHelpOfGravityPushesStickWithoutGravity
   MemberMargin.PlansWithAMarginSurviveTheBox
   ProblemList.ProblemsAreSoundAndTheSameEachTime
+  Progress.TellsMoreAndMoreAndChangesNothing
   Proofs.GoalBesideTheMiddleLineOfACan
   PushCalibration.MirroredPushesGiveMirroredRegistration
   PushCalibration.RecoversWhatMadeThePushes
@@ -99,4 +101,5 @@ set(costly_when_sanitized
   WalkSearch.FindsNarrowWays
   WalkSearch.KeepsToLimitsOfTheAngle
   WalkSearch.MeetsANumberAtItself
-  WalkSearch.ReachesTheGoalByPushesThatStick)
+  WalkSearch.ReachesTheGoalByPushesThatStick
+  WoundSearch.IsNoEndOfASearchForCheaperPlans)

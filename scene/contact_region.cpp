@@ -130,8 +130,11 @@ ContactPoints ContactRegion::clipped_by_face(const PlanarPose& X_HO) const noexc
     const Vec2 middle = frame.in_object(cell.centroid);
     PressedCell part;
     const NearOutline::Close close = near.close_to(middle, cell.reach, cell.within);
-    if (close.only) {
-      part = press_at_edge(cell, close.only->a, close.only->b, frame);
+    if (close.count == 1) {
+      part = press_at_edge(cell, {close.one->a, close.one->b}, frame);
+    } else if (close.count == 2 && near.sides() == NearOutline::Sides::kLeftOfAll) {
+      part = press_at_corner(cell, {close.one->a, close.one->b},
+                             {close.two->a, close.two->b}, frame);
     } else if (close.count > 0) {
       part = press(cell, pieces_, frame);
     } else if (close.inside) {

@@ -79,7 +79,7 @@ class ContactRegion {
   std::vector<PadCell> cells_;    // of the pad, in H; empty unless the face clips
   double pad_reach_ = 0.0;        // [m] farthest pad point from the finger axis
   bool clips_ = false;
-  bool convex_ = false;  // the outline, where the face clips
+  bool convex_ = false;              // the outline, where the face clips
   bool round_side_ = false;          // the pads hold the curved side of a cylinder
   Vec2 generator_a_ = Vec2::Zero();  // ends of the generator line in O
   Vec2 generator_b_ = Vec2::Zero();

@@ -21,6 +21,11 @@ class NearOutline {
   NearOutline(const std::vector<Vec2>& outline, bool is_convex, const Vec2& centre,
               double radius) noexcept;
 
+  /// What sides of the edges nearby a place inside is on: left of all; or, at a corner
+  /// that turns right, of any.
+  enum class Sides { kTellNothing, kLeftOfAll, kLeftOfAny };
+  Sides sides() const { return sides_; }
+
   struct Edge {
     Vec2 a, b;
     double squared_length;    ///< [m^2]
@@ -29,9 +34,10 @@ class NearOutline {
 
   /// Edges of the outline that are closer than some distance to a point.
   struct Close {
-    int count = 0;               ///< 2: two or more, or some of too many nearby
-    const Edge* only = nullptr;  ///< where there is one
-    bool inside = false;         ///< where there is none: whether the point is
+    int count = 0;              ///< 3: three or more, or some of too many nearby
+    const Edge* one = nullptr;  ///< where there are one or two
+    const Edge* two = nullptr;  ///< where there are two
+    bool inside = false;        ///< where there is none: whether the point is
   };
 
   /// Those closer than `distance` to p, all of which must be no farther than `within`
@@ -41,7 +47,7 @@ class NearOutline {
       const Edge& edge = near_[0];
       const double area = cross(edge.b - edge.a, p - edge.a);
       if (area * area > distance * distance * edge.squared_length) {
-        return {0, nullptr, area > 0.0};
+        return {0, nullptr, nullptr, area > 0.0};
       }
     }
     return close_to_any(p, distance, within);
@@ -52,10 +58,12 @@ class NearOutline {
 
   static constexpr std::size_t kMostNear = 32;  // where there are more, all are looked at
 
+  Sides sides_that_tell(bool is_convex) const noexcept;
+
   const std::vector<Vec2>& outline_;
   std::array<Edge, kMostNear> near_;
   std::size_t count_ = 0;
-  bool sides_tell_ = false;  ///< what is left of the edges nearby is inside
+  Sides sides_ = Sides::kTellNothing;
 };
 
 }  // namespace prehensile

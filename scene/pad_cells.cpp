@@ -226,15 +226,35 @@ PressedCell press(const PadCell& cell, const std::vector<Triangle>& face,
   return pressed;
 }
 
-PressedCell press_at_edge(const PadCell& cell, const Vec2& a, const Vec2& b,
-                          const CellFrame& frame) noexcept {
-  CellShape cut;
-  const bool is_cut = clip(cell.shape, frame.in_hand(a), frame.in_hand(b), cut);
-  if (!is_cut) return {cell.measure, cell.centroid};
-  if (!is_cell(cut, cell.shape)) return {};
-  const Measured pressed = measured(cut);
+namespace {
+
+/// A part that edges have left of a cell, both in H.
+PressedCell pressed_part(const PadCell& cell, const CellShape& part) {
+  if (!is_cell(part, cell.shape)) return {};
+  const Measured pressed = measured(part);
   if (!(pressed.measure > kRounding * cell.measure)) return {};
   return {pressed.measure, cell.centroid + pressed.centroid - cell.middle};
+}
+
+}  // namespace
+
+PressedCell press_at_edge(const PadCell& cell, const FaceEdge& edge,
+                          const CellFrame& frame) noexcept {
+  CellShape cut;
+  const bool is_cut = clip(cell.shape, frame.in_hand(edge.a), frame.in_hand(edge.b), cut);
+  return is_cut ? pressed_part(cell, cut) : PressedCell{cell.measure, cell.centroid};
+}
+
+PressedCell press_at_corner(const PadCell& cell, const FaceEdge& one, const FaceEdge& two,
+                            const CellFrame& frame) noexcept {
+  CellShape cut;
+  if (!clip(cell.shape, frame.in_hand(one.a), frame.in_hand(one.b), cut)) {
+    return press_at_edge(cell, two, frame);
+  }
+  CellShape cut_twice;
+  const bool is_cut =
+      cut.count > 0 && clip(cut, frame.in_hand(two.a), frame.in_hand(two.b), cut_twice);
+  return pressed_part(cell, is_cut ? cut_twice : cut);
 }
 
 }  // namespace prehensile

@@ -98,8 +98,17 @@ struct PressedCell {
 PressedCell press(const PadCell& cell, const std::vector<Triangle>& face,
                   const CellFrame& frame) noexcept;
 
-/// The same where a -> b [m], in O, is the only edge of the face that reaches the cell.
-PressedCell press_at_edge(const PadCell& cell, const Vec2& a, const Vec2& b,
+/// From a to b [m], in O.
+struct FaceEdge {
+  Vec2 a, b;
+};
+
+/// The same where this is the only edge of the face that reaches the cell.
+PressedCell press_at_edge(const PadCell& cell, const FaceEdge& edge,
                           const CellFrame& frame) noexcept;
+
+/// The same where these two are, and the face is left of both.
+PressedCell press_at_corner(const PadCell& cell, const FaceEdge& one, const FaceEdge& two,
+                            const CellFrame& frame) noexcept;
 
 }  // namespace prehensile

@@ -30,7 +30,35 @@ TEST(PadCells, AtAnEdgeAreThoseOnTheFace) {
           {random.in(-0.01, 0.01), random.in(-0.01, 0.01), random.in(-3.0, 3.0)});
       for (const PadCell& cell : cells) {
         const PressedCell all = press(cell, face, frame);
-        const PressedCell one = press_at_edge(cell, a, b, frame);
+        const PressedCell one = press_at_edge(cell, {a, b}, frame);
+        cut += one.measure > 0.0 && one.measure < 0.999 * cell.measure;
+        EXPECT_NEAR(one.measure, all.measure, 1e-9 * cell.measure);
+        if (one.measure < 1e-3 * cell.measure) continue;
+        EXPECT_LT((one.centroid - all.centroid).norm(), 1e-9);
+      }
+    }
+  }
+  EXPECT_GT(cut, 500);
+}
+
+/// Of a corner that turns left, both edges.
+TEST(PadCells, AtACornerAreThoseOnTheFace) {
+  Random random(2);
+  int cut = 0;
+  for (const Pad& pad :
+       {Pad(DiscPad{0.009}), Pad(RectanglePad{{0.02, 0.01}}), Pad(LinePad{0.02, 0.3})}) {
+    const std::vector<PadCell> cells = pad_cells(pad, {}, 6);
+    for (int i = 0; i < 300; ++i) {
+      const Vec2 corner = random.in_box(0.01, 0.01);
+      const Vec2 in = random.direction();
+      const Vec2 out = rotated(random.in(0.1, 3.0), in);
+      const std::vector<Triangle> face = {{{corner - in, corner, corner + out}}};
+      const CellFrame frame(
+          {random.in(-0.01, 0.01), random.in(-0.01, 0.01), random.in(-3.0, 3.0)});
+      for (const PadCell& cell : cells) {
+        const PressedCell all = press(cell, face, frame);
+        const PressedCell one =
+            press_at_corner(cell, {corner - in, corner}, {corner, corner + out}, frame);
         cut += one.measure > 0.0 && one.measure < 0.999 * cell.measure;
         EXPECT_NEAR(one.measure, all.measure, 1e-9 * cell.measure);
         if (one.measure < 1e-3 * cell.measure) continue;

@@ -207,9 +207,12 @@ class LabelSearch {
   /// A label, and a push that leads to `node`; false if that turns the object too far.
   bool extend(const Label& label, int index, int contact, int node, const TurnCost& push,
               Label& next) const {
-    next = {label.paid, label.placements + (contact != label.contact ? 1 : 0),
-            node,       contact,
-            index,      label.depth + 1};
+    next = {label.paid,
+            label.placements + (is_placed_anew(search_, contact, label.contact) ? 1 : 0),
+            node,
+            contact,
+            index,
+            label.depth + 1};
     next.paid += push;
     return next.paid.confine(static_cast<float>(ways_.low),
                              static_cast<float>(ways_.high));
@@ -219,7 +222,8 @@ class LabelSearch {
     Label next;
     for (int contact = 0; contact < graph_.contacts(); ++contact) {
       const Label label = labels_[index];  // a copy: labels_ grows
-      const double paid = cost(label) + (contact != label.contact ? 1 : 0);
+      const double paid =
+          cost(label) + (is_placed_anew(search_, contact, label.contact) ? 1 : 0);
       for (const LegEdge& edge : graph_.edges(label.node, contact)) {
         if (paid + edge.cost + rest(edge.to, contact) >= to_beat_) continue;
         if (extend(label, index, contact, edge.to, edge.paid, next)) offer(next);

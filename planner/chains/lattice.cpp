@@ -141,7 +141,10 @@ void add_nodes(const Steering& steering, const std::vector<Vec2>& nodes,
   Chain chain;
   for (int place = 0; place < goals.count && !work.spent(); ++place) {
     const auto leads_on = [&](std::size_t node, std::size_t contact) {
-      const double placements_more = out.has(node, contact) ? 0.0 : 1.0;
+      const auto index = static_cast<int>(contact);
+      const bool stays =
+          out.has(node, contact) && !is_placed_anew(steering.search, index, index);
+      const double placements_more = stays ? 0.0 : 1.0;
       return least[static_cast<std::size_t>(place)][node] + placements_more <
                  best.worst_cost() &&
              out.has_any(node);

@@ -245,7 +245,8 @@ double cost_of(const SearchModel& search, const std::vector<Move>& moves) {
   int placements = 0;
   for (std::size_t k = 0; k < moves.size(); ++k) {
     length += flat_distance(*search.model, moves[k].from, moves[k].to);
-    if (k == 0 || moves[k].contact != moves[k - 1].contact) ++placements;
+    const int before = k > 0 ? moves[k - 1].contact : -1;
+    if (is_placed_anew(search, moves[k].contact, before)) ++placements;
   }
   return placements + length / placement_length(*search.model);
 }

@@ -79,7 +79,7 @@ void add_way_point(const Steering& steering, double theta_start, const GoalPlace
                    int place, const Leg& first, const Leg& second, Chain& chain,
                    BestWayPoints& best) noexcept {
   const SearchModel& search = steering.search;
-  const int placed = first.contact != second.contact ? 2 : 1;
+  const int placed = is_placed_anew(search, second.contact, first.contact) ? 2 : 1;
   const double length = first.length + second.length;
   const TurnWindow window = turns_from(search, theta_start);
   const GoalPlace& goal = goals.places[place];
@@ -115,7 +115,7 @@ void add_crossings(const Steering& steering, const FlatState& start,
         Vec2 p_OF;
         Leg first, second;
         if (crossing(start.p_OF, from.e[k / to.count], goal, to.e[k % to.count], p_OF) &&
-            may_be_kept(i == j ? 1 : 2, p_OF) &&
+            may_be_kept(is_placed_anew(search, j, i) ? 2 : 1, p_OF) &&
             make_leg(steering, i, {start.p_OF, true}, {p_OF}, work, first) &&
             make_leg(steering, j, {p_OF}, {goal, true}, work, second)) {
           add_way_point(steering, start.theta, goals, place, first, second, chain, best);

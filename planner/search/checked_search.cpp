@@ -38,6 +38,7 @@ struct Clearance {
   double extra_friction = 0.0;     ///< share of the pusher's friction that is left unused
   bool looks_for_cheaper = false;  ///< see SearchModel
   int left_out = -1;               ///< contact that makes no push; -1: none
+  bool points_stay = false;        ///< see SearchModel
 };
 
 /// By how much the ways of a plan carry the finger axis further off than the straight
@@ -65,6 +66,11 @@ std::vector<int> contacts_of(const Plan& plan) {
   return contacts;
 }
 
+bool pushes_by_points(const Model& model, const std::vector<int>& contacts) {
+  return std::ranges::any_of(
+      contacts, [&](int contact) { return model.contacts[contact].is_point; });
+}
+
 /// One search, finished and checked.
 Plan attempt(const Model& model, const PlanOptions& options, const Clearance& clearance,
              Work& work, Found& found) {
@@ -73,6 +79,7 @@ Plan attempt(const Model& model, const PlanOptions& options, const Clearance& cl
   kept.friction = std::min(1.0, kept.friction + clearance.extra_friction);
   SearchModel search = prepare_search(model, kept, clearance.left_out);
   search.looks_for_cheaper = clearance.looks_for_cheaper;
+  search.points_stay = clearance.points_stay;
   if (work.meter) {
     work.meter->enter(kept.is_none() ? "search without margin" : "search");
     work.meter->forget_best();
@@ -153,6 +160,10 @@ Plan search_and_check(const Model& model, const PlanOptions& options,
       again({margin, std::max(1.5 * found.drift, kClearOfBorder)}, "");
     }
     return plan;
+  }
+  if (failed_check() && pushes_by_points(model, contacts)) {
+    again({.margin = margin, .looks_for_cheaper = true, .points_stay = true},
+          "; with more pushes by points: ");
   }
   if (failed_check() && work.found_cheaper > 0) {
     again({margin}, "; the first that is found: ");

@@ -20,7 +20,8 @@ struct Found {
 /// that is tried here: with double the part nothing is tried again.
 enum class Asked { kWholeMargin, kPartOfMargin };
 
-/// A plan that fails its exact check is searched again, first without a look for what is
+/// A plan that fails its exact check is searched again, first, if points make pushes, as
+/// if these did not cost a placement each, then without a look for what is
 /// cheaper than the first plan found, if it took its place, then farther from slipping by
 /// what its detours carry the finger axis off, then with double the margin, then with
 /// less friction than there is, then without one of its contacts. A dear one that passes

@@ -245,12 +245,15 @@ bool make_held_leg(const Steering& steering, int contact, const Stop& from,
   return true;
 }
 
-int placements(const Chain& chain) noexcept {
-  int runs = 0;
+int placements(const SearchModel& search, const Chain& chain) noexcept {
+  int placed = 0;
+  int before = -1;
   for (int k = 0; k < chain.count; ++k) {
-    if (k == 0 || chain.legs[k].contact != chain.legs[k - 1].contact) ++runs;
+    const int contact = chain.legs[k].contact;
+    if (is_placed_anew(search, contact, before)) ++placed;
+    before = contact;
   }
-  return runs;
+  return placed;
 }
 
 bool solve_chain(const SearchModel& search, double dtheta, Chain& chain,
@@ -276,7 +279,7 @@ bool solve_chain(const SearchModel& search, double dtheta, Chain& chain,
     }
     if (!next_choice(chain, choice)) break;
   }
-  chain.cost = placements(chain) + best_travel / placement_length(*search.model);
+  chain.cost = placements(search, chain) + best_travel / placement_length(*search.model);
   return std::isfinite(best_travel);
 }
 
@@ -326,7 +329,7 @@ void centre_chain(const SearchModel& search, double dtheta, double share,
     chain.kappa[k] += share * (lo + position * (hi - lo) - chain.kappa[k]);
     travel += chain.legs[k].length * std::hypot(1.0, chain.kappa[k]);
   }
-  chain.cost = placements(chain) + travel / placement_length(*search.model);
+  chain.cost = placements(search, chain) + travel / placement_length(*search.model);
 }
 
 bool make_chain_stick(const SearchModel& search, double theta_start, double dtheta,

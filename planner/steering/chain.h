@@ -87,8 +87,8 @@ void centre_chain(const SearchModel& search, double dtheta, double share,
 bool make_chain_stick(const SearchModel& search, double theta_start, double dtheta,
                       Chain& chain, Work& work) noexcept;
 
-/// Placements of the chain: runs of legs by one contact.
-int placements(const Chain& chain) noexcept;
+/// Placements of the chain: runs of legs by one line, legs by points.
+int placements(const SearchModel& search, const Chain& chain) noexcept;
 
 /// One move of a solved chain, starting at this angle.
 Move move_of(const SearchModel& search, const Chain& chain, int leg, double theta_from);

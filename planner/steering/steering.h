@@ -66,6 +66,8 @@ struct SearchModel {
   std::vector<SearchContact> contacts;
   bool exact_everywhere = false;  ///< isotropic pad: no move needs the pad check
   bool looks_for_cheaper = true;  ///< than the first plan found; see plane_search.h
+  bool points_stay = false;       ///< pushes by one point cost one placement: not what
+                                  ///< they do, but so plans of more of them are found
   Vec2 p_OF_start = Vec2::Zero();
   std::shared_ptr<const Confines> confines;  ///< null where the scene names none
   std::shared_ptr<const RingTable> rings;  ///< of round pads, for plans without a margin
@@ -78,6 +80,13 @@ struct SearchModel {
     return carried(margin, (p_OF - p_OF_start).norm());
   }
 };
+
+/// Whether the pusher has to be placed anew for a push by one contact after a push by
+/// another (negative: none): a point stands where each push needs it.
+inline bool is_placed_anew(const SearchModel& search, int contact, int before) noexcept {
+  return contact != before ||
+         (search.contacts[contact].stick.is_point && !search.points_stay);
+}
 
 /// Compiles the contacts: a line pusher that covers its face stands at the face's centre,
 /// a shorter one at places so close that they cover the face, a point pusher anywhere on

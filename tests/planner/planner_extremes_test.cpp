@@ -121,6 +121,15 @@ TEST(PlannerExtremes, SizeDoesNotMatter) {
   }
 }
 
+// One push by a point was taken for cheaper than it is in many pieces, each with a place
+// of its own, of which nothing was left then but a plan of two pushes and three turns.
+TEST(PlannerExtremes, APushByAPointIsNotCutInPieces) {
+  const Plan plan = nominal_plan(with_extreme("tolerance 0.001", 69).scene);
+  ASSERT_TRUE(plan.usable());
+  EXPECT_EQ(plan.pushes.size(), 1);
+  EXPECT_LT(plan.cost, 1.4);
+}
+
 // Roundings of 1e-7 m count in objects of 0.1 mm, and decide now and then in larger ones
 // which of two plans passes its check. The micrometre that a push may miss its end by
 // leaves a few of the smallest objects without plans by points.

@@ -34,7 +34,7 @@ TEST(RunSearch, UsesTolerancesWhereTheySaveAPlacement) {
     const auto within = search_runs(search, start, *scene.goal, 3.0, limits, work);
     EXPECT_LE(to_goal.has_value(), within.has_value()) << i;
     if (!within) continue;
-    EXPECT_EQ(placements(*within), 1);
+    EXPECT_EQ(placements(search, *within), 1);
     FlatState end = start;
     for (int k = 0; k < within->count; ++k) {
       end = move_of(search, *within, k, end.theta).to;
@@ -64,7 +64,7 @@ TEST(RunSearch, FollowsWherePointsPullAside) {
   const auto found = search_runs(search, flat_state(scene.start), goal, 2.5,
                                  Limits(options, work), work);
   ASSERT_TRUE(found);
-  EXPECT_EQ(placements(*found), 1);
+  EXPECT_EQ(placements(search, *found), 1);
   EXPECT_LT(found->cost, 1.9);
   const double theta = scene.start.X_HO.theta;
   EXPECT_TRUE(chain_passes(search, *found, theta, work));

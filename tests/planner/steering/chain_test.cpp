@@ -83,7 +83,8 @@ TEST_F(ChainTest, FindsTheShortestOfAllRotations) {
       EXPECT_TRUE(chain.legs[k].kappas.contains(chain.kappa[k]));
     }
     EXPECT_NEAR(sum, c_dtheta, 1e-12);
-    EXPECT_NEAR(chain.cost, placements(chain) + travel_of(chain) / model_.L, 1e-12);
+    EXPECT_NEAR(chain.cost, placements(search_, chain) + travel_of(chain) / model_.L,
+                1e-12);
   }
   EXPECT_GT(solved, 1000);
 }
@@ -185,6 +186,19 @@ TEST_F(ChainTest, LegsDoNotWindTheHandUp) {
   }
   EXPECT_GT(legs, 1000);
   EXPECT_GT(cut, 0);
+}
+
+/// A line goes on from where it stands, a point stands elsewhere for each push.
+TEST_F(ChainTest, PointsArePlacedAnewForEachPush) {
+  Random random(6);
+  Chain chain = random_chain(random, 3, 1);
+  chain.legs[0].contact = chain.legs[1].contact = 0;
+  chain.legs[2].contact = 1;
+  EXPECT_EQ(placements(search_, chain), 2);
+  search_.contacts[0].stick.is_point = true;
+  EXPECT_EQ(placements(search_, chain), 3);
+  search_.points_stay = true;
+  EXPECT_EQ(placements(search_, chain), 2);
 }
 
 }  // namespace

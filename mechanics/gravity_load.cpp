@@ -40,10 +40,11 @@ class GravityLoad {
         frictions_.col(k) *= -1.0;
         inverse.row(k) *= -1.0;
       }
-      // A ball of this radius about gravity is made up as well: a unit wrench needs
-      // shares of at most this sum.
+      // What the shares miss, and a ball of radius `least` about gravity, is made up as
+      // well: a unit wrench needs shares of at most this sum.
       const double of_unit = std::sqrt(3.0) * inverse.norm();
-      if (share.sum() + std::max(0.0, least) * of_unit < 1.0) return true;
+      const double missed = (w_g_ - frictions_ * share).norm();
+      if (share.sum() + (missed + std::max(0.0, least)) * of_unit < 1.0) return true;
       const Vec3 n = inverse.transpose() * Vec3::Ones();
       const Vec3 v = friction(n);
       if (v.dot(n) - w_g_.dot(n) <= least * n.norm()) return false;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "mechanics/pad_drag.h"
 #include "scene/constants.h"
 
@@ -13,29 +15,17 @@ namespace {
 constexpr double kEllipsoidMoment = 1e-9;  // tolerances at a point contact, over F c
 constexpr double kPadMoment = 1e-3;
 
-/// A rotation that is done many times.
-struct Turn {
-  double cos, sin;
-
-  explicit Turn(double angle) : cos(std::cos(angle)), sin(std::sin(angle)) {}
-  Vec2 forth(const Vec2& v) const {
-    return {cos * v.x() - sin * v.y(), sin * v.x() + cos * v.y()};
-  }
-  Vec2 back(const Vec2& v) const {
-    return {cos * v.x() + sin * v.y(), cos * v.y() - sin * v.x()};
-  }
-};
-
 /// Drag of the real pads over F, in O, for a twist of any scale, the points moved away
 /// from the finger axis by `stretch`.
-PadDrag pad_drag(const Model& model, const PlanarGrasp& grasp, const Turn& theta,
-                 const Vec2& velocity, double omega, double stretch) {
+PadDrag pad_drag(const Model& model, const PlanarGrasp& grasp,
+                 const Eigen::Matrix2d& R_HO, const Vec2& velocity, double omega,
+                 double stretch) {
   if (model.has_soft_points()) {
     return drag_of_ellipsoid(stretch * model.c, velocity, omega);
   }
   const PadDrag drag = drag_of_points(grasp.count, grasp.x, grasp.y, grasp.bound, stretch,
-                                      theta.forth(velocity), omega);
-  return {theta.back(drag.force) / model.F, drag.moment / model.F};
+                                      R_HO * velocity, omega);
+  return {R_HO.transpose() * drag.force / model.F, drag.moment / model.F};
 }
 
 /// Push wrench on the object over F: what remains of the drag after gravity.
@@ -261,9 +251,9 @@ StickTest exact_stick_test(const Model& model, const PushContact& contact, doubl
   StickContact stick = stick_contact(model, contact, place);
   if (stick.c == 0.0) stick.c = model.L;  // a point pad has no torque to count moments in
   const Vec2 p_OF = finger_in_object(X_HO);
-  const Turn theta(X_HO.theta);
+  const Eigen::Matrix2d R_HO = Eigen::Rotation2Dd(X_HO.theta).toRotationMatrix();
   const auto drag_at = [&](const Vec2& direction, double stretch) {
-    return pad_drag(model, grasp, theta, v * direction, omega, stretch);
+    return pad_drag(model, grasp, R_HO, v * direction, omega, stretch);
   };
   const PadDrag nominal = drag_at(e, 1.0);
   test = reported(stick, p_OF, nominal, model.F * contact.grip_share, kPadMoment);

@@ -37,6 +37,8 @@ NearOutline::NearOutline(const std::vector<Vec2>& outline, bool is_convex,
   sides_ = sides_that_tell(is_convex);
 }
 
+// What no other edge comes near to is a half-plane, or lies about one corner; and what is
+// right of any edge of a convex outline is outside.
 NearOutline::Sides NearOutline::sides_that_tell(bool is_convex) const noexcept {
   if (count_ == 1 || (is_convex && count_ > 0)) return Sides::kLeftOfAll;
   if (count_ != 2) return Sides::kTellNothing;

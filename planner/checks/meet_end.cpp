@@ -213,6 +213,12 @@ bool is_by_point(const Model& model, const Push& push) {
          model.contacts[static_cast<std::size_t>(contact_of(push))].is_point;
 }
 
+bool has_pushes_by_points(const Model& model, const Plan& plan) {
+  return std::ranges::any_of(plan.pushes, [&](const PlannedPush& planned) {
+    return is_by_point(model, planned.push);
+  });
+}
+
 void meet_ends(const Model& model, const TransitionOptions& options, Plan& plan) {
   const auto is_aimed = [&](const PlannedPush& planned) {
     const auto* const push = std::get_if<LinearPush>(&planned.push);

@@ -10,6 +10,9 @@ namespace prehensile {
 /// Whether a point does this push, so that the object is free to turn about it.
 bool is_by_point(const Model& model, const Push& push);
 
+/// Whether one does any push of the plan.
+bool has_pushes_by_points(const Model& model, const Plan& plan);
+
 /// Newton's method with secant updates (Broyden, Math. Comp. 19 (1965) 577-593) over
 /// direction, travel and place of each push by a point that ends elsewhere. Three numbers
 /// for the three of a pose. Where it finds no such push, nearby, the straight way of the

@@ -48,10 +48,18 @@ bool is_clipped(const Model& model, const PlannedPush& planned) {
 /// The box of a plan's margin, and its members one by one.
 class Members {
  public:
-  Members(const Model& model, const Plan& plan, bool by_points)
-      : model_(model), plan_(plan), by_points_(by_points), box_(box_of(plan.margin)) {}
+  Members(const Model& model, const Plan& plan)
+      : model_(model),
+        plan_(plan),
+        by_points_(has_pushes_by_points(model, plan)),
+        box_(box_of(plan.margin)) {}
 
-  bool is_empty() const { return box_.active().empty(); }
+  /// Whether members may do what the slack of the pushes does not tell.
+  bool matter() const {
+    const auto clips = [&](const PlannedPush& push) { return is_clipped(model_, push); };
+    return !box_.active().empty() && (by_points_ || model_.cross_section ||
+                                      std::ranges::any_of(plan_.pushes, clips));
+  }
 
   /// What becomes of the plan in a member that does not survive it, or nothing.
   std::optional<PlanTrial> failed(std::uint64_t member,
@@ -90,15 +98,8 @@ std::string fault_of(const PlanTrial& trial) {
 
 std::string member_margin_fault(const Model& model, const Plan& plan,
                                 const TransitionOptions& options) {
-  const bool by_points =
-      std::any_of(plan.pushes.begin(), plan.pushes.end(),
-                  [&](const PlannedPush& push) { return is_by_point(model, push.push); });
-  const Members members(model, plan, by_points);
-  const auto clips = [&](const PlannedPush& push) { return is_clipped(model, push); };
-  if (members.is_empty() ||
-      (!by_points && !model.cross_section && std::ranges::none_of(plan.pushes, clips))) {
-    return {};
-  }
+  const Members members(model, plan);
+  if (!members.matter()) return {};
   // Most members that fail do so at a first glance, which costs little; closely looked at
   // is what that suspects, and then everything.
   TransitionOptions glance = options;

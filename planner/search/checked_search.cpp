@@ -9,6 +9,7 @@
 #include "planner/baselines/baselines.h"
 #include "planner/catalogue.h"
 #include "planner/checks/exact_check.h"
+#include "planner/checks/meet_end.h"
 #include "planner/costs.h"
 #include "planner/finish/finish.h"
 #include "planner/search/frame.h"
@@ -64,11 +65,6 @@ std::vector<int> contacts_of(const Plan& plan) {
       contacts.push_back(contact);
   }
   return contacts;
-}
-
-bool pushes_by_points(const Model& model, const std::vector<int>& contacts) {
-  return std::ranges::any_of(
-      contacts, [&](int contact) { return model.contacts[contact].is_point; });
 }
 
 /// One search, finished and checked.
@@ -161,7 +157,7 @@ Plan search_and_check(const Model& model, const PlanOptions& options,
     }
     return plan;
   }
-  if (failed_check() && pushes_by_points(model, contacts)) {
+  if (failed_check() && has_pushes_by_points(model, found.plan)) {
     again({.margin = margin, .looks_for_cheaper = true, .points_stay = true},
           "; with more pushes by points: ");
   }

@@ -1,5 +1,9 @@
 #include "planner/chains/leg_graph.h"
 
+#include <cstdint>
+#include <utility>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "planner/chains/lattice.h"

@@ -64,6 +64,12 @@ constexpr double kWorthLessSlack = 0.98;
 /// Share of the cost that is way, above which a tenth of the way is worth as much.
 constexpr double kLongWay = 0.18;
 
+bool has_points(const SearchModel& search) {
+  return std::ranges::any_of(search.contacts, [](const SearchContact& contact) {
+    return contact.stick.is_point;
+  });
+}
+
 /// A plan found, a run of one placement in its stead, and three pushes in the stead of
 /// both, each polished; and the best of them by what the real pads allow, then by what
 /// the exact check does where the closed form knows less, where it may still be far from
@@ -76,8 +82,16 @@ std::vector<Plan> polished(const SearchModel& search, const Limits& limits, Work
     plans.push_back(one);
     if (improve_by_words(search, limits, work, one)) plans.push_back(one);
   };
-  Plan run = plan;
-  if (improve_by_run(search, limits, work, run)) keep_polished(run);
+  const auto keep_run = [&](const SearchModel& counted) {
+    Plan run = plan;
+    if (improve_by_run(counted, limits, work, run)) keep_polished(std::move(run));
+  };
+  keep_run(search);
+  if (has_points(search)) {  // pieces of a push by a point become one when polished
+    SearchModel staying = search;
+    staying.points_stay = true;
+    keep_run(staying);
+  }
   keep_polished(plan);
   const auto sort = [&] {
     for (Plan& one : plans) account(*search.model, one);

@@ -122,12 +122,15 @@ TEST(PlannerExtremes, SizeDoesNotMatter) {
 }
 
 // One push by a point was taken for cheaper than it is in many pieces, each with a place
-// of its own, of which nothing was left then but a plan of two pushes and three turns.
+// of its own, of which nothing was left then but a plan of two pushes and three turns;
+// and pieces that cost a placement each hide the one push that polishing makes of them.
 TEST(PlannerExtremes, APushByAPointIsNotCutInPieces) {
-  const Plan plan = nominal_plan(with_extreme("tolerance 0.001", 69).scene);
-  ASSERT_TRUE(plan.usable());
-  EXPECT_EQ(plan.pushes.size(), 1);
-  EXPECT_LT(plan.cost, 1.4);
+  for (const std::uint64_t instance : {69, 74}) {
+    const Plan plan = nominal_plan(with_extreme("tolerance 0.001", instance).scene);
+    ASSERT_TRUE(plan.usable());
+    EXPECT_EQ(plan.pushes.size(), 1) << instance;
+    EXPECT_LT(plan.cost, 1.42) << instance;
+  }
 }
 
 // Roundings of 1e-7 m count in objects of 0.1 mm, and decide now and then in larger ones

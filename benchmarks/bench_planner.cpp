@@ -229,7 +229,7 @@ Run run_planner(const Problem& problem, const std::string& planner, std::uint64_
         1e-6 * time_us(
                    [&] {
                      lower_bound(model, scene.start, *scene.goal, run.plan.cost,
-                                 {.weightless = wanted.margin->weightless});
+                                 {.margin = run.plan.margin});
                    },
                    1);
   }

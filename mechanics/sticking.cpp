@@ -6,7 +6,6 @@
 
 #include <Eigen/Geometry>
 
-#include "mechanics/pad_drag.h"
 #include "scene/constants.h"
 
 namespace prehensile {
@@ -233,6 +232,18 @@ double robust_slack(const StickContact& contact, const Vec2& p_OF, const Vec2& v
     if (squared <= c_omega_lo * c_omega_lo || squared >= c_omega_hi * c_omega_hi)
       continue;
     slack = std::min(slack, slack_at(std::sqrt(squared) / std::abs(omega)));
+  }
+  return slack;
+}
+
+double slack_of_frictions(const StickContact& contact, const Vec2& p_OF,
+                          std::span<const PadDrag> frictions,
+                          const Margin& margin) noexcept {
+  const StickContact weak = weakened(contact, margin);
+  double slack = kInfinity;
+  for (const PadDrag& friction : frictions) {
+    slack = std::min(slack, slack_of_drag(weak, {p_OF, p_OF}, friction, margin,
+                                          {margin.tilt, margin.tilt}));
   }
   return slack;
 }

@@ -21,8 +21,10 @@
 #pragma once
 
 #include <cmath>
+#include <span>
 
 #include "mechanics/model.h"
+#include "mechanics/pad_drag.h"
 
 namespace prehensile {
 
@@ -148,6 +150,13 @@ StickTest stick_test(const StickContact& contact, double F, const Vec2& p_OF,
 double robust_slack(const StickContact& contact, const Vec2& p_OF, const Vec2& velocity,
                     double omega, const Margin& margin,
                     double least = -std::numeric_limits<double>::infinity()) noexcept;
+
+/// Least slack over the box of uncertainty of cone and face ends, as in `robust_slack`,
+/// where the friction that the object overcomes, over F, is one of these: the same motion
+/// over other torque radii. A tilted motion begins at p_OF. No heap.
+double slack_of_frictions(const StickContact& contact, const Vec2& p_OF,
+                          std::span<const PadDrag> frictions,
+                          const Margin& margin) noexcept;
 
 /// One instant with the real pad region at this pose: forces nominal, slack worst over
 /// the box, where the torque radius scales the pad about the finger axis. Also holds for

@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "mechanics/sticking.h"
+#include "mechanics/stick_rows.h"
 #include "scene/constants.h"
 
 namespace prehensile {
@@ -125,41 +125,21 @@ class Intersection {
   std::array<Gap, kConstraintCount> gaps_;
 };
 
-/// Least and greatest factor of a parameter with a relative uncertainty.
+/// Least and greatest factor of the torque radius.
 struct Factors {
   explicit Factors(double relative) : lo(1.0 - relative), hi(1.0 + relative) {}
-  Factors(double least, double most) : lo(least), hi(most) {}
   double lo, hi;
-
-  /// The greatest value of factor x B: the worst right side of A >= B.
-  double worst(double B) const { return B > 0.0 ? hi * B : lo * B; }
 };
 
 /// Friction cone over the box. Between least and greatest c, sigma is monotone, so the
-/// two ends decide; the least friction is the worst because the normal force is positive.
-void keep_cone(const StickContact& contact, const Vec2& e, const Margin& margin,
-               Intersection& kept) {
-  const Factors force(margin.least_weight(), margin.most_weight());
-  const Factors radius(margin.torque_radius);
-  const double mu = contact.mu * std::max(0.0, 1.0 - margin.friction);
-  const double e_n = e.dot(contact.n);
-  const double e_t = e.dot(contact.t);
-  const double gamma_n = contact.gamma.dot(contact.n);
-  const double gamma_t = contact.gamma.dot(contact.t);
-  const auto keep_row = [&](double A, double B) {
-    const Solutions solutions = friction_solutions(A, force.worst(B));
+/// two ends decide.
+void keep_cone(const StickRows& rows, const Factors& radius, Intersection& kept) {
+  for (int i = 0; i < rows.edges; ++i) {
+    const Solutions solutions = friction_solutions(rows.edge[i].A, rows.edge[i].B);
     kept.keep(Intersection::kFriction, solutions, 1.0 / radius.hi);
-    if (radius.lo == radius.hi) return;
+    if (radius.lo == radius.hi) continue;
     kept.keep(Intersection::kFriction, solutions, 1.0 / radius.lo);
-  };
-  const auto keep_edge = [&](double n, double t) {  // the row n, t of force >= 0
-    keep_row(least_turned(n * e_n + t * e_t, n * e_t - t * e_n, margin.tilt),
-             -least_turned(-(n * gamma_n + t * gamma_t), n * gamma_t - t * gamma_n,
-                           margin.tilt));
-  };
-  keep_edge(mu, -1.0);
-  keep_edge(mu, 1.0);
-  if (mu == 0.0) keep_edge(1.0, 0.0);  // the edges of a cone without width allow pulling
+  }
 }
 
 /// One face end over the box: { kappa : c kappa + A >= B sigma } for end b; the mirror
@@ -178,46 +158,13 @@ void keep_end(double c, double A, double B, const Factors& radius, Keep&& keep) 
   keep(end_solutions(c * radius.lo * radius.lo / radius.hi, A, B), 1.0 / radius.hi);
 }
 
-/// The kappas with which the pusher recedes at both face ends: an open gap, perhaps
-/// without end. The normal rate at x is e_n - kappa s_x / c with s_x the place of x along
-/// t from the finger axis, `place` [m] uncertain; omega/|v| = kappa / c holds for all
-/// members of the box.
-Gap receding(const StickContact& contact, const Vec2& p_OF, const Vec2& e, double place,
-             double tilt) {
-  Gap gap{-kInfinity, kInfinity};
-  const double rate = contact.c * least_turned(e.dot(contact.n), e.dot(contact.t), tilt);
-  for (const double s : {(contact.a - p_OF).dot(contact.t) + place,
-                         (contact.b - p_OF).dot(contact.t) - place}) {
-    if (s > 0.0) gap.lo = std::max(gap.lo, rate / s);
-    if (s < 0.0) gap.hi = std::min(gap.hi, rate / s);
-    if (s == 0.0 && rate >= 0.0) return {};
-  }
-  return gap;
-}
-
-/// Both face ends over the box. The moments are affine in m/F, in the places of pusher,
-/// finger axis and centre of mass, so the worst of each is known beforehand. The finger
-/// axis counts for the drag only: of gravity the lever about a face end is that of the
-/// centre of mass.
-void keep_ends(const StickContact& contact, const Vec2& p_OF, const Vec2& e,
-               const Margin& margin, Intersection& kept) {
-  const Factors force(margin.least_weight(), margin.most_weight());
-  const Factors radius(margin.torque_radius);
-  const Vec2 a = contact.a + margin.place * contact.t;
-  const Vec2 b = contact.b - margin.place * contact.t;
-  const double shift = margin.centre_of_mass * contact.gamma.norm();
-  const auto turned = [&](double sign, const Vec2& lever, const Vec2& vector) {
-    return least_turned(sign * cross(lever, vector), lever.dot(vector), margin.tilt);
-  };
-  const double A_a = turned(-1.0, p_OF - a, e) - margin.grasp;
-  const double A_b = turned(1.0, p_OF - b, e) - margin.grasp;
-  const double B_a = shift - turned(1.0, contact.p_OCom - a, contact.gamma);
-  const double B_b = shift - turned(-1.0, contact.p_OCom - b, contact.gamma);
-  keep_end(contact.c, A_a, force.worst(B_a), radius,
+void keep_ends(const StickContact& contact, const StickRows& rows, const Factors& radius,
+               Intersection& kept) {
+  keep_end(contact.c, rows.end_a.A, rows.end_a.B, radius,
            [&](const Solutions& solutions, double scale) {
              kept.keep(Intersection::kEndA, mirrored(solutions), scale);
            });
-  keep_end(contact.c, A_b, force.worst(B_b), radius,
+  keep_end(contact.c, rows.end_b.A, rows.end_b.B, radius,
            [&](const Solutions& solutions, double scale) {
              kept.keep(Intersection::kEndB, solutions, scale);
            });
@@ -239,12 +186,12 @@ KappaSet sticking_kappas(const StickContact& contact, const Vec2& p_OF,
 
 KappaSet robust_kappas(const StickContact& contact, const Vec2& p_OF, const Vec2& e,
                        const Margin& margin) noexcept {
+  const StickRows rows = stick_rows(contact, p_OF, e, margin);
   Intersection kept;
-  keep_cone(contact, e, margin, kept);
-  keep_ends(contact, p_OF, e, contact.is_point ? Margin::none() : margin, kept);
-  const double place = contact.is_point ? 0.0 : margin.place + margin.grasp;
-  kept.keep(Intersection::kAdvance,
-            {.gap = receding(contact, p_OF, e, place, margin.tilt)}, 1.0);
+  keep_cone(rows, Factors(margin.torque_radius), kept);
+  keep_ends(contact, rows, Factors(contact.is_point ? 0.0 : margin.torque_radius), kept);
+  const auto [lo, hi] = receding_kappas(contact, p_OF, e, margin);
+  kept.keep(Intersection::kAdvance, {.gap = {lo, hi}}, 1.0);
   return kept.set();
 }
 

@@ -243,7 +243,7 @@ void set_bound(const Model& model, Plan& plan) {
     return;
   }
   const LowerBound bound =
-      lower_bound(model, start, goal, plan.cost, {.weightless = plan.margin.weightless});
+      lower_bound(model, start, goal, plan.cost, {.margin = plan.margin});
   plan.lower_bound = bound.value;
   plan.bound_is_trivial = bound.is_trivial;
   plan.bound_nodes = bound.nodes;

@@ -208,15 +208,15 @@ constexpr double kProofRounding = 1e-7;
 /// Bounds from the words of contacts, for one question.
 class Prover {
  public:
-  Prover(const Model& model, const Grasp& start, const Goal& goal, bool weightless)
-      : roll_(roll_cost(model, start, goal)), slabs_(model, weightless) {
+  Prover(const Model& model, const Grasp& start, const Goal& goal, const Margin& margin)
+      : roll_(roll_cost(model, start, goal)), slabs_(model, margin.weightless) {
     const GoalSet set(model, start, goal);
     question_.straight = set.distance();
     if (!set.fixes_place() || question_.straight <= 0.0) return;
-    laws_ = run_laws(model, weightless);
+    question_.p_OF = finger_in_object(start.X_HO);
+    laws_ = run_laws(model, margin, question_.p_OF);
     if (laws_.empty()) return;
     scene_ = word_scene(model, laws_);
-    question_.p_OF = finger_in_object(start.X_HO);
     question_.theta = start.X_HO.theta;
     question_.goal = set.for_words();
     question_.slabs = &slabs_;
@@ -269,7 +269,7 @@ LowerBound lower_bound(const Model& model, const Grasp& start, const Goal& goal,
   const std::int64_t nodes = options.nodes;
   LowerBound bound{.value = trivial_bound(model, start, goal)};
   if (!(bound.value < cost / kGapAsked)) return bound;
-  const Prover prover(model, start, goal, options.weightless);
+  const Prover prover(model, start, goal, options.margin);
   for (const double target : {cost / kGapAsked, cost}) {
     if (!(bound.value < target) || bound.nodes >= nodes) break;
     std::int64_t left = nodes - bound.nodes;
@@ -287,9 +287,9 @@ LowerBound lower_bound(const Model& model, const Grasp& start, const Goal& goal,
 }
 
 void visit_words(const Model& model, const Grasp& start, const Goal& goal, double target,
-                 bool weightless, std::int64_t& nodes,
+                 const Margin& margin, std::int64_t& nodes,
                  const std::function<void(const WordNode&)>& visit) {
-  Prover(model, start, goal, weightless).prove(target, nodes, visit);
+  Prover(model, start, goal, margin).prove(target, nodes, visit);
 }
 
 bool bound_holds(const Model& model, const Grasp& start, const Goal& goal, double claimed,
@@ -297,7 +297,7 @@ bool bound_holds(const Model& model, const Grasp& start, const Goal& goal, doubl
   std::int64_t nodes = options.nodes;
   const double accepted = claimed * (1.0 - kAcceptance);
   return trivial_bound(model, start, goal) >= accepted ||
-         Prover(model, start, goal, options.weightless).prove(claimed, nodes) >= accepted;
+         Prover(model, start, goal, options.margin).prove(claimed, nodes) >= accepted;
 }
 
 }  // namespace prehensile

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "mechanics/model.h"
+#include "mechanics/sticking.h"
 
 namespace prehensile {
 
@@ -35,7 +35,7 @@ inline constexpr std::int64_t kBoundNodes = 6000;
 
 struct BoundOptions {
   std::int64_t nodes = kBoundNodes;
-  bool weightless = false;  ///< of plans that stick without gravity as well
+  Margin margin = Margin::none();  ///< of plans that survive it
 };
 
 struct LowerBound {
@@ -62,7 +62,7 @@ LowerBound lower_bound(const Model& model, const Grasp& start, const Goal& goal,
 /// than `target` would have to be, best first for each number of placements. Counts
 /// `nodes` down. None where that bound is trivial.
 void visit_words(const Model& model, const Grasp& start, const Goal& goal, double target,
-                 bool weightless, std::int64_t& nodes,
+                 const Margin& margin, std::int64_t& nodes,
                  const std::function<void(const WordNode&)>& visit);
 
 /// Whether J >= `claimed` can be proved with this work: the answer that a reader of a

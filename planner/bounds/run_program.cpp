@@ -90,7 +90,7 @@ void set_levels(const std::vector<Vec2>& outline, const RunLaw& law, double star
 
 /// What the multipliers of the ends of a piece add up to.
 struct EndSums {
-  double difference = 0.0, turning = 0.0, both = 0.0, per_path = 0.0;
+  double difference = 0.0, lifted = 0.0, turning = 0.0, both = 0.0, per_path = 0.0;
   double length = 1.0;  // multiplier of the length
 };
 
@@ -102,6 +102,7 @@ EndSums sums_of(const RunProgram& p, const RunMultipliers& multipliers, int piec
   for (int set = 0; set < RunLaw::kSets; ++set) {
     const Pair& y = m.end[set];
     sums.difference += y[0] - y[1];
+    sums.lifted += p.lift[set][0] * y[0] - p.lift[set][1] * y[1];
     sums.turning += p.ratio[set] * (y[0] - y[1]);
     sums.both += y[0] + y[1];
     sums.per_path -= p.per_path[set][0] * y[0] + p.per_path[set][1] * y[1];
@@ -141,7 +142,8 @@ double least_of_rest(const RunProgram& p, const RunMultipliers& y, const EndTerm
   for (int set = 0; set < RunLaw::kSets; ++set) {
     for (int k = 0; k < 2; ++k) depth -= p.rest_lever(set, k) * m.end[set][k];
   }
-  const double u = m.edge[0] - m.edge[1] + p.h[kRunPieces] * sums.difference + goal.u;
+  const double u =
+      m.edge[0] - m.edge[1] + p.h[kRunPieces] * sums.difference - sums.lifted + goal.u;
   const double z = turn - sums.turning;
   if (sums.length < std::abs(z)) return -kInfinity;
   const double s = std::sqrt(sums.length * sums.length - z * z) + sums.per_path;
@@ -162,7 +164,8 @@ double dual_value(const RunProgram& p, const RunMultipliers& y) {
     const EndSums sums = sums_of(p, y, i);
     const double D = p.D[i];
     later += m.border[1] - m.border[0];
-    const double u = m.edge[0] - m.edge[1] + (p.h[i] + 0.5 * D) * sums.difference + later;
+    const double u = m.edge[0] - m.edge[1] + (p.h[i] + 0.5 * D) * sums.difference -
+                     sums.lifted + later;
     const double z =
         turn - sums.turning + p.beside[i][0] * m.turn[0] - p.beside[i][1] * m.turn[1];
     later += D * sums.difference;
@@ -215,7 +218,7 @@ RunProgram::RunProgram(const RunQuestion& question) {
   area = question.chords_only ? 0.0 : 1.0;
   set_levels(*question.outline, law, start, last - start, level);
   set_laws(question, law, u_start);
-  const double face = law.n.dot(law.end[0][0].place);
+  const double face = law.level;
   for (int k = 0; k < kRunPieces; ++k) {
     h[k] = -(start + level[k] - 0.5 * D[k]) - face;
     borders_at(*question.outline, law, start + level[k], border_low[k], border_high[k]);
@@ -289,6 +292,7 @@ void RunProgram::set_laws(const RunQuestion& question, const RunLaw& law,
     for (int k = 0; k < 2; ++k) {
       const EndLaw& of_end = law.end[set][k];
       end[set][k] = law.t.dot(of_end.place) - u_start;
+      lift[set][k] = law.n.dot(of_end.place) - law.level;
       slack[set][k] = of_end.per_travel + of_end.slope * question.laws->reach;
       per_path[set][k] = of_end.per_path;
     }

@@ -49,6 +49,7 @@ struct RunProgram {
   Pair back{};
   std::array<double, RunLaw::kSets> ratio{};    // C / c
   Pairs end{};                                  // u_low, u_high
+  Pairs lift{};                                 // [m] of both over the face
   Pairs slack{};                                // of the ends, per tau; and because a
   std::array<double, kRunPieces + 1> run_back;  // piece may run back
   Pairs per_path{};                      // and per length of the path of the finger axis

@@ -86,7 +86,8 @@ RunNumbers RunSlopes::slacks_at(const RunVector& x) const {
     for (int set = 0; set < RunLaw::kSets; ++set) {
       const double ratio = p_.ratio[set];
       slack.piece[end(set, e)] =
-          -sign * (ratio * s.dz - each(p_.h) * s.du - D * (s.mid - p_.end[set][e])) +
+          -sign * (ratio * s.dz - (each(p_.h) - p_.lift[set][e]) * s.du -
+                   D * (s.mid - p_.end[set][e])) +
           area + (p_.slack[set][e] + each(p_.run_back)) * s.tau +
           p_.per_path[set][e] * s.path + ratio * v;
     }
@@ -113,7 +114,8 @@ RunSlopes::End RunSlopes::end_slacks_at(const RunVector& x) const {
     const double sign = sign_of(e);
     slack[end_edge(e)] = p_.mu * d[0] + sign * d[1] + p_.back[e] * tau + v;
     for (int set = 0; set < RunLaw::kSets; ++set) {
-      slack[end_end(set, e)] = -sign * (p_.ratio[set] * d[2] - p_.h[kRunPieces] * d[1]) +
+      const double h = p_.h[kRunPieces] - p_.lift[set][e];
+      slack[end_end(set, e)] = -sign * (p_.ratio[set] * d[2] - h * d[1]) +
                                p_.rest_lever(set, e) * d[0] + p_.per_path[set][e] * path +
                                p_.slack_of(set, e, kRunPieces) * tau + p_.ratio[set] * v;
     }
@@ -205,8 +207,8 @@ void RunSlopes::linearise(const RunVector& x, const RunNumbers& y) {
   for (int e = 0; e < 2; ++e) {
     for (int set = 0; set < RunLaw::kSets; ++set) {
       const double per_path = p_.per_path[set][e];
-      by_[end(set, e)][kDu] =
-          sign_of(e) * each(p_.h) - (p_.area / p_.mu) * s.du + per_path * s.du / s.path;
+      by_[end(set, e)][kDu] = sign_of(e) * (each(p_.h) - p_.lift[set][e]) -
+                              (p_.area / p_.mu) * s.du + per_path * s.du / s.path;
       bend_uu_ += y.piece[end(set, e)] * (p_.area / p_.mu - per_path * of_path);
     }
   }
@@ -235,7 +237,7 @@ void RunSlopes::linearise_end(const RunVector& x, const End& y) {
       const double per_path = p_.per_path[set][e];
       by_end_(end_end(set, e), kD) = p_.rest_lever(set, e) + per_path * d[0] / path;
       by_end_(end_end(set, e), kStepU) =
-          sign_of(e) * p_.h[kRunPieces] + per_path * d[1] / path;
+          sign_of(e) * (p_.h[kRunPieces] - p_.lift[set][e]) + per_path * d[1] / path;
       add_bend(-per_path * y[end_end(set, e)], path, 2);
     }
   }

@@ -12,6 +12,7 @@
 #include "planner/checks/space_margin.h"
 #include "planner/obstacles/confines_check.h"
 #include "planner/pads/ring_pads.h"
+#include "planner/pads/run_law.h"
 #include "planner/pads/spread_pads.h"
 #include "planner/planner.h"
 #include "planner/steering/goal.h"
@@ -76,13 +77,15 @@ double slack_at(const Model& model, const PushContact& contact, double place,
 /// lies flush, wherever on it the point may be, so that the laws of bounds.h, barrier.h
 /// and turn_proof.h hold for the push. Round ones are spread over all angles: a disc
 /// pulls nowhere aside as the points that stand for it do.
-double slack_by_laws(const Model& model, const PushContact& contact, const Instant& at) {
+double slack_by_laws(const Model& model, const PushContact& contact, const Instant& at,
+                     const Margin& margin) {
   constexpr double kInstant = 1e-9;  // share of the motion
   const Vec2 p_OF = finger_in_object(at.X_HO);
   if (has_ring_pads(model)) {
     const double v = at.velocity.norm();
     const Vec2 e = v > 0.0 ? Vec2(at.velocity / v) : contact.n;
-    return ring_slack(model, contact, p_OF, e, kInstant * v, kInstant * at.omega);
+    return ring_slack(model, contact, p_OF, e, kInstant * v, kInstant * at.omega,
+                      margin_of_rings(model, contact, margin));
   }
   if (has_clipped_discs(model)) {
     return spread_slack(model, contact, p_OF, at.velocity, at.omega);
@@ -121,7 +124,7 @@ double slack_by_point(const Model& model, const Grasp& start, const LinearPush& 
     at.velocity = rotated(-at.X_HO.theta, instant.V_HO.head<2>());
     at.omega = instant.V_HO[2];
     slack = tighter(slack, slack_at(model, here, push.place, at, margin));
-    slack = tighter(slack, slack_by_laws(model, contact, at));
+    slack = tighter(slack, slack_by_laws(model, contact, at, margin));
   }
   return slack;
 }
@@ -157,7 +160,8 @@ double push_slack(const Model& model, const Grasp& start, const Push& push,
   if (contact.is_point) return slack_by_point(model, start, linear, points - 1, margin);
   double slack = std::numeric_limits<double>::infinity();
   if (has_ring_pads(model)) {
-    slack = ring_slack(model, contact, p_OF, linear.e, linear.travel, linear.turn);
+    slack = ring_slack(model, contact, p_OF, linear.e, linear.travel, linear.turn,
+                       margin_of_rings(model, contact, margin));
   } else if (has_clipped_discs(model)) {
     slack = spread_slack_along(model, contact, p_OF, linear.e, linear.travel, linear.turn,
                                most_spread_parts);

@@ -212,10 +212,9 @@ bool bound_is_right(const Model& model, const Plan& plan) {
   }
   const Goal goal = goal_within_limits(model.scene);
   const Grasp& start = model.scene.start;
-  const bool weightless = plan.margin.weightless;
   return bound_holds(model, start, goal, plan.lower_bound,
-                     {.nodes = 4 * kBoundNodes, .weightless = weightless}) ||
-         lower_bound(model, start, goal, plan.cost, {.weightless = weightless}).value >=
+                     {.nodes = 4 * kBoundNodes, .margin = plan.margin}) ||
+         lower_bound(model, start, goal, plan.cost, {.margin = plan.margin}).value >=
              plan.lower_bound;
 }
 

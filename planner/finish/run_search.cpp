@@ -41,15 +41,23 @@ class RunSearch {
   RunSearch(const SearchModel& search, const FlatState& start, double to_beat, Work& work)
       : search_(search), start_(start), to_beat_(to_beat), work_(work) {
     RunLaws rings;
-    if (search.rings) rings = run_laws(*search.model);
+    if (search.rings) {
+      rings = run_laws(*search.model, search.margin, search.p_OF_start);
+    }
     laws_.C.fill(search.model->c * search.model->c);
     if (!rings.empty()) {
       laws_.C = rings.C;
       laws_.reach = rings.reach;
     }
+    // Ways within all of a margin's laws lie at their borders, where chains do not stick.
+    Margin part = Margin::none();
+    part.friction = search.margin.friction;
+    part.place = search.margin.place;
+    part.weightless = search.margin.weightless;
     for (const SearchContact& contact : search.contacts) {
-      laws_.contacts.push_back(rings.empty() ? ellipsoid_law(contact.stick, search.margin)
-                                             : rings.contacts[contact.contact]);
+      laws_.contacts.push_back(rings.empty()
+                                   ? ellipsoid_law(contact.stick, part, start.p_OF)
+                                   : rings.contacts[contact.contact]);
     }
   }
 

@@ -134,7 +134,7 @@ bool improve_by_words(const SearchModel& search, const Limits& limits, Work& wor
   const GoalPlaces goals = goal_places(model, goal, from, search.margin);
   Candidates candidates(search, from, goals, plan.cost, work);
   std::int64_t nodes = kBoundNodes;
-  visit_words(model, plan.start, goal, plan.cost, search.margin.weightless, nodes,
+  visit_words(model, plan.start, goal, plan.cost, search.margin, nodes,
               [&](const WordNode& node) { candidates.offer(node); });
   bool improved = false;
   for (const Chain& chain : std::move(candidates).best()) {

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kBetweenEntries = 3e-4;  // of force and moment
 constexpr double kStraight = 5e-4;        // second difference that is still interpolated
+constexpr double kMostShrunk = 0.99;      // of the torque radius
 
 /// Keeps of each interval what lies in [low, high].
 void keep_between(double low, double high, KappaSet& set) {
@@ -21,6 +22,20 @@ void keep_between(double low, double high, KappaSet& set) {
     if (part.lo <= part.hi) set.intervals[count++] = part;
   }
   set.count = count;
+}
+
+/// What lies in both, as far as a set can hold it.
+KappaSet common(const KappaSet& a, const KappaSet& b) {
+  KappaSet both;
+  for (int i = 0; i < a.count; ++i) {
+    KappaSet part = b;
+    keep_between(a.intervals[i].lo, a.intervals[i].hi, part);
+    for (int j = 0; j < part.count; ++j) {
+      if (both.count == static_cast<int>(both.intervals.size())) return both;
+      both.intervals[both.count++] = part.intervals[j];
+    }
+  }
+  return both;
 }
 
 /// Takes ]low, high[ out of each interval.
@@ -117,49 +132,42 @@ void RingTable::cut(const Row& wanted, KappaSet& entries) const noexcept {
   }
 }
 
-KappaSet RingTable::kappas(const StickContact& contact, const Vec2& p_OF,
-                           const Vec2& e) const noexcept {
+KappaSet RingTable::sticking(const StickRows& rows, double c,
+                             double stretch) const noexcept {
   KappaSet set;
   set.count = 1;
   set.intervals[0] = {0.0, kEntries - 1.0};
-  const double e_n = e.dot(contact.n);
-  const double e_t = e.dot(contact.t);
-  const Vec2& gamma = contact.gamma;
-  const double c = contact.c;
-  for (const double side : {1.0, -1.0}) {
-    const double w_e = contact.mu * e_n + side * e_t;
-    const double w_g = contact.mu * gamma.dot(contact.n) + side * gamma.dot(contact.t);
-    if (gamma.isZero(0.0)) {
-      if (w_e < 0.0) return {};
-      continue;
+  for (int i = 0; i < rows.edges; ++i) {
+    const StickRow& edge = rows.edge[i];
+    if (edge.B != 0.0) {
+      cut({edge.A, 0.0, -edge.B}, set);
+    } else if (edge.A < 0.0) {
+      return {};
     }
-    cut({w_e, 0.0, -w_g}, set);
   }
-  for (const double side : {1.0, -1.0}) {
-    const Vec2& end = side > 0.0 ? contact.b : contact.a;
-    cut({side * cross(p_OF - end, e) / c, side,
-         -side * cross(contact.p_OCom - end, gamma) / c},
-        set);
-  }
+  cut({rows.end_b.A / c, stretch, -rows.end_b.B / c}, set);
+  cut({rows.end_a.A / c, -stretch, -rows.end_a.B / c}, set);
   for (int i = 0; i < set.count; ++i) {
-    const auto kappa = [](double entry) {
+    const auto kappa = [stretch](double entry) {
       const double angle = 0.5 * std::numbers::pi * (entry / kHalf - 1.0);
-      return std::tan(std::clamp(angle, -1.5707, 1.5707));
+      return std::tan(std::clamp(angle, -1.5707, 1.5707)) / stretch;
     };
     set.intervals[i] = {kappa(set.intervals[i].lo), kappa(set.intervals[i].hi)};
   }
-  // The pusher advances at one end of the face at least.
-  const double a = contact.n.dot(perp(contact.a - p_OF)) / c;
-  const double b = contact.n.dot(perp(contact.b - p_OF)) / c;
-  if (e_n >= 0.0 && a > 0.0 && b > 0.0) {
-    keep_between(-e_n / std::min(a, b), kInfinity, set);
-  } else if (e_n >= 0.0 && a < 0.0 && b < 0.0) {
-    keep_between(-kInfinity, -e_n / std::max(a, b), set);
-  } else if (e_n < 0.0) {
-    const double rising = std::max(a, b) > 0.0 ? -e_n / std::max(a, b) : kInfinity;
-    const double falling = std::min(a, b) < 0.0 ? -e_n / std::min(a, b) : -kInfinity;
-    take_out(falling, rising, set);
+  return set;
+}
+
+KappaSet RingTable::kappas(const StickContact& contact, const Vec2& p_OF, const Vec2& e,
+                           const Margin& margin) const noexcept {
+  const StickRows rows = stick_rows(contact, p_OF, e, margin);
+  KappaSet set = sticking(rows, contact.c, 1.0);
+  const double r = contact.is_point ? 0.0 : margin.torque_radius;
+  for (const double stretch : {1.0 - std::min(r, kMostShrunk), 1.0 + r}) {
+    if (r > 0.0 && !set.empty()) set = common(set, sticking(rows, contact.c, stretch));
   }
+  // The pusher advances at one end of the face at least.
+  const auto [low, high] = receding_kappas(contact, p_OF, e, margin);
+  if (low < high) take_out(low, high, set);
   return set;
 }
 

@@ -7,7 +7,7 @@
 
 #include <array>
 
-#include "mechanics/sticking.h"
+#include "mechanics/stick_rows.h"
 #include "planner/pads/ring_pads.h"
 
 namespace prehensile {
@@ -16,10 +16,10 @@ class RingTable {
  public:
   explicit RingTable(const Model& model);
 
-  /// Like sticking_kappas, but for a line contact over ring pads; a little smaller, for
+  /// Like robust_kappas, but for a line contact over ring pads; a little smaller, for
   /// what lies between the entries. No heap.
-  KappaSet kappas(const StickContact& contact, const Vec2& p_OF,
-                  const Vec2& e) const noexcept;
+  KappaSet kappas(const StickContact& contact, const Vec2& p_OF, const Vec2& e,
+                  const Margin& margin = Margin::none()) const noexcept;
 
  private:
   static constexpr int kHalf = 256;
@@ -29,6 +29,9 @@ class RingTable {
     double along, moment,
         constant;  // along x force + moment x moment / c + constant >= 0
   };
+  /// Those that the rows leave with pads stretched about the finger axis.
+  KappaSet sticking(const StickRows& rows, double c, double stretch) const noexcept;
+
   double at(const Row& row, int i) const {
     return row.along * along_[i] + row.moment * moment_[i] + row.constant;
   }

@@ -12,7 +12,7 @@
 #pragma once
 
 #include "mechanics/model.h"
-#include "mechanics/pad_drag.h"
+#include "mechanics/sticking.h"
 
 namespace prehensile {
 
@@ -44,5 +44,10 @@ double slack_of_friction(const Model& model, const PushContact& contact, const V
 /// NaN where nothing moves. No heap.
 double ring_slack(const Model& model, const PushContact& contact, const Vec2& p_OF,
                   const Vec2& e, double travel, double turn) noexcept;
+
+/// The same over a margin, wherever on its face the pusher is. No heap.
+double ring_slack(const Model& model, const PushContact& contact, const Vec2& p_OF,
+                  const Vec2& e, double travel, double turn,
+                  const Margin& margin) noexcept;
 
 }  // namespace prehensile

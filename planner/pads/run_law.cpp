@@ -6,6 +6,7 @@
 
 #include "planner/pads/point_section.h"
 #include "planner/pads/ring_pads.h"
+#include "planner/pads/weak_contact.h"
 #include "scene/constants.h"
 
 namespace prehensile {
@@ -17,8 +18,11 @@ constexpr double kWidestCone = 1.4;  // [rad] from the normal
 /// A little friction where there is none: the edges of a cone without width are parallel.
 constexpr double kNarrowestCone = 1e-6;
 
-/// One edge of the friction cone of a contact, with G = w.m g / F of it and of the other
-/// edge, and the cone widened by `widening` [rad].
+constexpr double kShareOfRings = 0.9;  // of the margin
+
+/// One edge of the friction cone of a contact, with what gravity asks of it, G, and of
+/// the other edge, over F; the motions that it allows lie within half_angle [rad] of the
+/// normal, and with pads that pull aside in a cone widened by `widening` [rad].
 struct Edge {
   double half_angle, widening;
   double w, w_wide;  // lengths
@@ -94,9 +98,10 @@ double greatest_detour(const Cells& cells, const std::array<Edge, 2>& edges) {
   return greatest;
 }
 
-/// An end of a face: side +1 bounds dtheta from below; g [m]: moment of gravity about it.
+/// An end of a face: side +1 bounds dtheta from below; help [m]: moment of gravity about
+/// it, over F, positive where it helps to stay on it.
 struct End {
-  double side, g;
+  double side, help;
 };
 
 /// What the moment of the pads and gravity allow per dT beyond `ratio` c^2 dtheta, over
@@ -106,8 +111,7 @@ double excess(const SectionCell& cell, double c, const End& end, double ratio) {
   const double sine = end.side > 0.0
                           ? std::min(ratio * cell.sine_low, ratio * cell.sine_high)
                           : -std::max(ratio * cell.sine_low, ratio * cell.sine_high);
-  const double weight =
-      -end.side * end.g / (end.side * end.g > 0.0 ? cell.drag_high : cell.drag_low);
+  const double weight = end.help / (end.help < 0.0 ? cell.drag_high : cell.drag_low);
   return turning - sine + weight / c;
 }
 
@@ -141,18 +145,18 @@ double deviation_rate(const Cells& cells) {
   return most;
 }
 
-/// The edges of a contact whose cone is widened, and what gravity asks of them.
-std::array<Edge, 2> edges_of(double mu, double widening, const Vec2& gamma,
+/// The edges of a contact whose cone is widened, and what gravity asks of them at so much
+/// of the weight.
+std::array<Edge, 2> edges_of(const WeakContact& contact, double widening, double weight,
                              const RunLaw& law) {
   std::array<Edge, 2> edges;
   for (int k = 0; k < 2; ++k) {
-    const Vec2 side = k == 0 ? law.t : Vec2(-law.t);
-    edges[k] = {std::atan(mu),
+    edges[k] = {contact.half_angle,
                 widening,
-                std::hypot(1.0, mu),
+                contact.w[k].norm(),
                 law.w[k].norm(),
-                (mu * law.n + side).dot(gamma),
-                (mu * law.n - side).dot(gamma)};
+                contact.asked_of_edge(k, weight),
+                contact.asked_of_edge(1 - k, weight)};
   }
   return edges;
 }
@@ -161,9 +165,8 @@ std::array<Edge, 2> edges_of(double mu, double widening, const Vec2& gamma,
 /// |dp|.
 constexpr double kSlowCharge = 1.3;
 
-void set_end(const Cells& cells, const Model& model, double ratio, bool is_slow,
-             double detour, const End& end, const RunLaw& law, EndLaw& result) {
-  const double c = model.c;
+void set_end(const Cells& cells, double c, double ratio, bool is_slow, double detour,
+             const End& end, const RunLaw& law, EndLaw& result) {
   const double fast = excess_per_travel(cells, c, end, ratio);
   const double per_travel = std::max(1e-4, fast) * (is_slow ? kSlowCharge : 1.0);
   const double per_path = excess_per_path(cells, c, end, ratio, per_travel);
@@ -174,32 +177,39 @@ void set_end(const Cells& cells, const Model& model, double ratio, bool is_slow,
   result.place += end.side * c * beyond * std::hypot(1.0, law.mu) * law.t;
 }
 
+/// With pads stretched as the margin has it, whose dT counts turns with their own torque
+/// radius; and with the finger axis off its place across the motion.
 void set_ends(const PadSection& section, const Cells& cells, const Model& model,
-              const PushContact& contact, double detour, const Vec2& gamma, RunLaw& law) {
+              const WeakContact& contact, double weight, double detour, double grasp,
+              RunLaw& law) {
   for (int set = 0; set < RunLaw::kSets; ++set) {
     const bool is_slow = set == 0;
     const double ratio = is_slow ? section.slow_ratio : section.fast_ratio;
+    const double stretch = contact.stretch[set];
     for (int k = 0; k < 2; ++k) {
       EndLaw& end = law.end[set][k];
-      end.place = k == 0 ? contact.b : contact.a;
-      const double g = cross(model.p_OCom - end.place, gamma);
-      set_end(cells, model, ratio, is_slow, detour, {k == 0 ? 1.0 : -1.0, g}, law, end);
+      end.place = contact.tilted_end[k];
+      set_end(cells, stretch * model.c, ratio, is_slow, detour,
+              {k == 0 ? 1.0 : -1.0, contact.help_at_end(k, weight)}, law, end);
+      end.per_travel *= std::max(1.0, stretch);
+      end.slope *= std::max(1.0, stretch);
+      end.per_path -= grasp;
     }
   }
 }
 
-/// The law of a contact, from the motions that its edges leave.
-RunLaw run_law(const Model& model, const PushContact& contact, const PadSection& section,
-               double widening) {
+/// The law of a contact at so much of the weight, from the motions that its edges leave.
+RunLaw law_at(const Model& model, const WeakContact& contact, const PadSection& section,
+              double widening, double weight, double grasp) {
   RunLaw law;
   law.n = contact.n;
   law.t = contact.t;
-  law.mu = std::max(kNarrowestCone, std::tan(std::atan(contact.mu) + widening));
+  law.mu = std::max(kNarrowestCone, std::tan(contact.half_angle + widening));
   law.jacobian = 2.0 * law.mu;
-  law.face = {law.t.dot(contact.a), law.t.dot(contact.b)};
+  law.face = contact.face;
+  law.level = contact.n.dot(contact.end[0]);
   law.w = {law.mu * law.n + law.t, law.mu * law.n - law.t};
-  const Vec2 gamma = model.mass / model.F * contact.g_O;
-  const std::array<Edge, 2> edges = edges_of(contact.mu, widening, gamma, law);
+  const std::array<Edge, 2> edges = edges_of(contact, widening, weight, law);
   Cells cells;
   std::copy_if(
       section.cells.begin(), section.cells.end(), std::back_inserter(cells),
@@ -208,19 +218,9 @@ RunLaw run_law(const Model& model, const PushContact& contact, const PadSection&
   const double fastest = asks_too_much(edges[0], last) ? kInfinity : last.sigma_high;
   for (int k = 0; k < 2; ++k) law.back[k] = -least_advance(cells, edges[k], fastest);
   if (cells.empty()) cells = section.cells;  // its edges let this contact do nothing
-  set_ends(section, cells, model, contact, greatest_detour(cells, edges), gamma, law);
+  set_ends(section, cells, model, contact, weight, greatest_detour(cells, edges), grasp,
+           law);
   return law;
-}
-
-/// Of soft points, whose friction is the ellipsoid: at every place of a pusher on the
-/// face.
-RunLaw soft_point_law(const Model& model, const PushContact& contact, bool weightless) {
-  StickContact stick = stick_contact(model, contact, 0.0);
-  stick.a = contact.a;
-  stick.b = contact.b;
-  Margin margin = Margin::none();
-  margin.weightless = weightless;
-  return ellipsoid_law(stick, margin);
 }
 
 /// Of two laws that a run obeys, for each inequality the one that leaves less.
@@ -237,6 +237,30 @@ RunLaw stricter(const RunLaw& one, const RunLaw& other) {
   return law;
 }
 
+/// At every place of a pusher on the face.
+StickContact whole_face(const Model& model, const PushContact& contact) {
+  StickContact stick = stick_contact(model, contact, 0.0);
+  stick.a = contact.a;
+  stick.b = contact.b;
+  return stick;
+}
+
+double greatest_deviation(const Cells& cells) {
+  double most = 0.0;
+  for (const SectionCell& cell : cells) most = std::max(most, cell.deviation);
+  return most;
+}
+
+RunLaw run_law(const Model& model, const PushContact& pushed, const PadSection& section,
+               double widening, const Margin& margin, const Vec2& begin) {
+  const WeakContact contact(whole_face(model, pushed), margin, begin);
+  const double grasp = margin.grasp;
+  const double least = margin.least_weight(), most = margin.most_weight();
+  const RunLaw law = law_at(model, contact, section, widening, most, grasp);
+  if (least == most || pushed.g_O.isZero(0.0)) return law;
+  return stricter(law, law_at(model, contact, section, widening, least, grasp));
+}
+
 /// Greatest distance of a place of the object from another.
 double size_of(const std::vector<Vec2>& outline) {
   double size = 0.0;
@@ -248,70 +272,92 @@ double size_of(const std::vector<Vec2>& outline) {
 
 }  // namespace
 
-RunLaw ellipsoid_law(const StickContact& stick, const Margin& margin) {
+Margin margin_of_laws(const Model& model, const PushContact& contact,
+                      const Margin& margin) {
+  const auto is_point = [](const PushContact& other) { return other.is_point; };
+  Margin part = margin;
+  if (std::any_of(model.contacts.begin(), model.contacts.end(), is_point)) {
+    part.torque_radius = 0.0;
+  }
+  if (!model.region.is_isotropic()) part.tilt = 0.0;  // turns their friction otherwise
+  if (!contact.is_point) return part;
+  Margin of_point = Margin::none();
+  if (!contact.g_O.isZero(0.0)) return of_point;
+  of_point.friction = part.friction;
+  of_point.tilt = part.tilt;
+  return of_point;
+}
+
+Margin margin_of_rings(const Model& model, const PushContact& contact,
+                       const Margin& margin) {
+  return margin_of_laws(model, contact, margin.scaled(kShareOfRings));
+}
+
+RunLaw ellipsoid_law(const StickContact& stick, const Margin& margin, const Vec2& begin) {
+  const WeakContact contact(stick, margin, begin);
   RunLaw law;
-  law.n = stick.n;
-  law.t = stick.t;
-  law.mu = std::max(kNarrowestCone, stick.mu * (1.0 - margin.friction));
+  law.n = contact.n;
+  law.t = contact.t;
+  law.mu = std::max(kNarrowestCone, std::tan(contact.half_angle));
   law.jacobian = 2.0 * law.mu;
-  law.face = {law.t.dot(stick.a) + margin.place, law.t.dot(stick.b) - margin.place};
+  law.face = contact.face;
+  law.level = contact.n.dot(contact.end[0]);
   for (int k = 0; k < 2; ++k) {
     const double side = k == 0 ? 1.0 : -1.0;
     law.w[k] = law.mu * law.n + side * law.t;
-    const double pressed = -law.w[k].dot(stick.gamma);
-    law.back[k] = margin.weightless ? std::min(0.0, pressed) : pressed;
-    EndLaw end;
-    end.place = k == 0 ? stick.b : stick.a;
-    end.place -= side * margin.place * stick.t;
-    end.per_travel = -side * cross(stick.p_OCom - end.place, stick.gamma);
-    if (margin.weightless) end.per_travel = std::min(0.0, end.per_travel);
-    for (auto& set : law.end) set[k] = end;
+    law.back[k] = -contact.most_asked_of_edge(k) * law.w[k].norm() / contact.w[k].norm();
+    const double help = contact.least_help_at_end(k);
+    for (int set = 0; set < RunLaw::kSets; ++set) {
+      EndLaw& end = law.end[set][k];
+      end.place = contact.tilted_end[k];
+      // dT of the stretched pads is at most, and at least, so much of that of others.
+      const double stretch = contact.stretch[set];
+      end.per_travel =
+          help * (help > 0.0 ? std::max(1.0, stretch) : std::min(1.0, stretch));
+      end.per_path = -margin.grasp;
+    }
   }
   return law;
 }
 
-RunLaws run_laws(const Model& model, bool weightless) {
+std::array<double, RunLaw::kSets> ellipsoid_moments(double c, const Margin& margin) {
+  std::array<double, RunLaw::kSets> C = stretches_of(margin);
+  for (double& moment : C) moment = moment * moment * c * c;
+  return C;
+}
+
+RunLaws run_laws(const Model& model) {
+  return run_laws(model, Margin::none(), Vec2::Zero());
+}
+
+RunLaws run_laws(const Model& model, const Margin& margin, const Vec2& begin) {
+  if (!(model.F > 0.0 && model.c > 0.0) || model.contacts.empty()) return {};
+  for (const PushContact& contact : model.contacts) {
+    if (model.needs_space(contact)) return {};
+  }
+  const bool soft = model.has_soft_points(), rings = has_ring_pads(model);
+  if (!soft && !rings && !alike_at_quarter_turns(model.region.whole(), model.c))
+    return {};
+  PadSection section;
+  if (!soft) section = pad_section(model);
+  if (!soft && section.cells.empty()) return {};
+  const double widening = std::atan(greatest_deviation(section.cells));
   RunLaws laws;
-  for (const PushContact& contact : model.contacts) {
-    if (model.needs_space(contact)) return laws;
-  }
   laws.reach = size_of(model.outline);
-  if (model.has_soft_points()) {
-    if (!(model.F > 0.0 && model.c > 0.0)) return laws;
-    laws.C.fill(model.c * model.c);
-    std::vector<RunLaw> contacts;
-    contacts.reserve(model.contacts.size());
-    for (const PushContact& contact : model.contacts) {
-      if (std::atan(contact.mu) > kWidestCone) return laws;
-      contacts.push_back(soft_point_law(model, contact, weightless && !contact.is_point));
-    }
-    laws.contacts = std::move(contacts);
-    return laws;
-  }
-  if (!has_ring_pads(model) && !alike_at_quarter_turns(model.region.whole(), model.c)) {
-    return laws;
-  }
-  const PadSection section = pad_section(model);
-  if (section.cells.empty()) return laws;
-  double deviation = 0.0;
-  for (const SectionCell& cell : section.cells) {
-    deviation = std::max(deviation, cell.deviation);
-  }
-  const double widening = std::atan(deviation);
-  laws.C = {section.slow_ratio * model.c * model.c,
-            section.fast_ratio * model.c * model.c};
-  std::vector<RunLaw> contacts;
-  contacts.reserve(model.contacts.size());
+  laws.contacts.reserve(model.contacts.size());
   for (const PushContact& contact : model.contacts) {
-    if (std::atan(contact.mu) + widening > kWidestCone) return laws;
-    contacts.push_back(run_law(model, contact, section, widening));
-    if (!weightless || contact.is_point) continue;
-    PushContact floating = contact;
-    floating.g_O.setZero();
-    contacts.back() =
-        stricter(contacts.back(), run_law(model, floating, section, widening));
+    if (std::atan(contact.mu) + widening > kWidestCone) return {};
+    const Margin part = rings ? margin_of_rings(model, contact, margin)
+                              : margin_of_laws(model, contact, margin);
+    laws.contacts.push_back(
+        soft ? ellipsoid_law(whole_face(model, contact), part, begin)
+             : run_law(model, contact, section, widening, part, begin));
+    laws.C = ellipsoid_moments(model.c, part);
   }
-  laws.contacts = std::move(contacts);
+  if (!soft) {
+    laws.C[0] *= section.slow_ratio;
+    laws.C[1] *= section.fast_ratio;
+  }
   return laws;
 }
 

@@ -19,12 +19,18 @@
 ///     dT
 /// where retreat dT is the most that the pusher may go back because gravity helps.
 ///
+/// What survives a margin sticks for every member of its box: with the least friction, an
+/// end of the face moved inwards, the motion turned towards an edge, the finger axis off
+/// its place across the motion, which costs |dp| of it, and gravity at its worst. A
+/// motion tilted about the begin of the plan moves the ends of the face (weak_contact.h).
+///
 /// The moment of the pads over C dtheta / |dp| is no constant: small for slow turning,
 /// large for fast. Two sets of the laws of the ends take C from the one and from the
 /// other; in the first the difference costs slack_k = a (dT - |dp|), in the second `low`
 /// and `high` lie beyond the ends of the face, by what the moment may exceed C dtheta /
 /// |dp|, per |dp|: inside the cone |dp| is at most sqrt(1 + mu'^2) times the advance
-/// -n.dp, and where gravity lets the motion out of it, the rest costs some dT.
+/// -n.dp, and where gravity lets the motion out of it, the rest costs some dT. With a
+/// margin the one set is of the least torque radius, the other of the greatest.
 #pragma once
 
 #include <algorithm>
@@ -52,6 +58,7 @@ struct RunLaw {
   std::array<double, 2> back{};
   double jacobian = 0.0;         ///< |cross(w_0, w_1)|
   std::array<double, 2> face{};  ///< [m] least and greatest t.p of the face
+  double level = 0.0;            ///< [m] n.p of the face
   double retreat() const { return std::max(0.0, 0.5 * (back[0] + back[1]) / mu); }
   std::array<std::array<EndLaw, 2>, kSets> end;  ///< of each set, low and high
 };
@@ -63,12 +70,30 @@ struct RunLaws {
   bool empty() const { return contacts.empty(); }
 };
 
-/// The law over the ellipsoid, for which it is exact: that of single instants, for all
-/// members of the margin's friction and places, and without gravity if it says so.
-RunLaw ellipsoid_law(const StickContact& stick, const Margin& margin);
+/// What of a margin the laws of a contact take up, which every push by it has to survive
+/// (exact_check.h). Of a pusher that is a point its friction and tilt, without gravity:
+/// that turns about such a pusher as the object does. No torque radius where the scene
+/// has a point, as all laws of a scene have the same moments, and no tilt where it turns
+/// the friction otherwise than the motion.
+Margin margin_of_laws(const Model& model, const PushContact& contact,
+                      const Margin& margin);
 
-/// Empty where the pads do not admit such a law, or pushes need the mechanics in space.
-/// `weightless`: of runs that stick without gravity as well (Margin::weightless).
-RunLaws run_laws(const Model& model, bool weightless = false);
+/// What of a margin pushes have to survive with ring pads (ring_pads.h), besides all of
+/// it with the pads' points, for which they are planned.
+Margin margin_of_rings(const Model& model, const PushContact& contact,
+                       const Margin& margin);
+
+/// The laws over the ellipsoid, for which they are exact where the margin is none: those
+/// of single instants, each contact with its own margin, of plans with this `begin` [m].
+RunLaw ellipsoid_law(const StickContact& stick, const Margin& margin, const Vec2& begin);
+std::array<double, RunLaw::kSets> ellipsoid_moments(double c, const Margin& margin);
+
+/// Of runs that survive this margin, in plans that begin with the finger axis at `begin`
+/// [m]. Empty where the pads do not admit such laws, or pushes need the mechanics in
+/// space.
+RunLaws run_laws(const Model& model, const Margin& margin, const Vec2& begin);
+
+/// Of all runs that stick.
+RunLaws run_laws(const Model& model);
 
 }  // namespace prehensile

@@ -220,9 +220,10 @@ bool make_held_leg(const Steering& steering, int contact, const Stop& from,
     ++work.stick_tests;
     const StickContact& stick = search.contacts[contact].stick;
     const bool ring = search.rings && !stick.is_point;
-    leg.kappas = ring ? search.rings->kappas(stick, from.p_OF, -d / length)
-                      : robust_kappas(stick, from.p_OF, -d / length,
-                                      search.margin_from(from.p_OF));
+    const Margin margin = search.margin_from(from.p_OF);
+    const Vec2 e = -d / length;
+    leg.kappas = ring ? search.rings->kappas(stick, from.p_OF, e, margin)
+                      : robust_kappas(stick, from.p_OF, e, margin);
   }
   if (leg.kappas.empty()) {
     work.stopped_by.add(constraint_of(search.contacts[contact], from.p_OF, to.p_OF));

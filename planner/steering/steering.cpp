@@ -211,7 +211,7 @@ SearchModel prepare_search(const Model& model, const Margin& margin, int left_ou
   search.exact_everywhere =
       model.region.is_isotropic() && model.region.is_fixed_in_hand();
   if (!(model.F > 0.0 && model.c > 0.0)) return search;
-  if (has_ring_pads(model) && margin.is_none()) {
+  if (has_ring_pads(model)) {
     search.rings = std::make_shared<const RingTable>(model);
   }
   add_contacts(model, margin, left_out, search.contacts);
@@ -223,7 +223,6 @@ SearchModel prepare_search(const Model& model, const Margin& margin, int left_ou
 SearchModel with_margin(const SearchModel& search, const Margin& margin) {
   SearchModel other = search;
   other.margin = margin;
-  if (!margin.is_none()) other.rings.reset();
   for (SearchContact& contact : other.contacts) {
     const int index = contact.contact;
     if (!search.model->contacts[index].is_point) continue;

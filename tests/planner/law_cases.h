@@ -8,6 +8,7 @@
 
 #include "mechanics/sticking.h"
 #include "planner/pads/ring_pads.h"
+#include "planner/pads/run_law.h"
 #include "planner/pads/spread_pads.h"
 #include "planner/steering/steering.h"
 #include "problems/pad_shapes.h"
@@ -74,13 +75,60 @@ inline double slack_of_pads(const Model& model, const PushContact& contact,
   return exact_stick_test(model, contact, 0.0, X_HO, e, 1.0, omega, Margin::none()).slack;
 }
 
-/// Rate at which the pusher advances, at the end of the face where it does so most.
+/// A box of uncertainty, now and then of one parameter alone.
+inline Margin random_margin(Random& random) {
+  Margin margin = Margin{}.scaled(random.in(0.0, 1.5));
+  margin.grasp = random.in(0.0, 1.5e-3);
+  margin.tilt = random.in(0.0, 0.02);
+  margin.weightless = random.chance(0.3);
+  if (!random.chance(0.3)) return margin;
+  Margin alone = Margin::none();  // one of them by itself
+  double* parts[] = {&alone.friction, &alone.force,          &alone.torque_radius,
+                     &alone.place,    &alone.centre_of_mass, &alone.grasp,
+                     &alone.tilt};
+  const double values[] = {margin.friction, margin.force,          margin.torque_radius,
+                           margin.place,    margin.centre_of_mass, margin.grasp,
+                           margin.tilt};
+  const int which = random.below(7);
+  *parts[which] = 2.0 * values[which];
+  return alone;
+}
+
+/// An instant of a plan that begins with the finger axis at `begin` and has gone on for
+/// `carried_on` [m] before a push that has `travelled` [m].
+struct PlannedInstant {
+  Vec2 begin;
+  double carried_on = 0.0, travelled = 0.0;
+};
+
+/// Slack of such an instant over a margin, as plans are checked: rings for discs, else
+/// the pads' points.
+inline double robust_slack_of_pads(const Model& model, const PushContact& contact,
+                                   const PlanarPose& X_HO, const Vec2& e, double kappa,
+                                   const PlannedInstant& at, const Margin& margin) {
+  const double omega = kappa / model.c;
+  const Vec2 p_OF = finger_in_object(X_HO);
+  const Margin here = carried(margin, at.carried_on);
+  if (has_ring_pads(model)) {
+    return ring_slack(model, contact, p_OF + at.travelled * e, e, 1.0, omega,
+                      margin_of_rings(model, contact, here));
+  }
+  return exact_stick_test(model, contact, 0.0, X_HO, e, 1.0, omega, here, at.travelled)
+      .slack;
+}
+
+/// Rate at which the pusher advances, at the end of the face where it does so most; over
+/// a margin at worst.
 inline double advance_of(const PushContact& contact, const Vec2& p_OF, const Vec2& e,
-                         double omega) {
+                         double omega, const Margin& margin = Margin::none()) {
   const auto rate = [&](const Vec2& end) {
     return contact.n.dot(e + omega * perp(end - p_OF));
   };
-  return std::max(rate(contact.a), rate(contact.b));
+  const Vec2 inwards = margin.place * contact.t;
+  const double n = contact.n.dot(e);
+  return std::max(rate(contact.a + inwards), rate(contact.b - inwards)) - n +
+         least_turned(n, cross(contact.n, e), margin.tilt) -
+         margin.grasp * std::abs(omega);
 }
 
 /// A random move by a contact that sticks, if one is hit: most of them along the edges of

@@ -9,6 +9,7 @@
 #include "planner/geometry/angle_scan.h"
 #include "planner/steering/goal.h"
 #include "scene/constants.h"
+#include "tests/planner/law_cases.h"
 #include "tests/planner/planner_cases.h"
 #include "tests/support/random.h"
 
@@ -17,6 +18,7 @@ namespace {
 
 using testing::goal_at;
 using testing::Random;
+using testing::random_margin;
 
 TEST(AngleScan, BoundsTheMinimumFromBelow) {
   Random random(1);
@@ -141,9 +143,9 @@ void attack_with_walks(int count, std::uint64_t seed) {
   for (int i = 0; i < count; ++i) {
     const Scene scene = random_bound_scene(i, random);
     const Model model = prepare(scene);
-    Margin margin = Margin::none();
+    Margin margin = random.chance(0.5) ? random_margin(random) : Margin::none();
     margin.weightless = random.chance(0.3);
-    const BoundOptions bounded{.nodes = 800, .weightless = margin.weightless};
+    const BoundOptions bounded{.nodes = 800, .margin = margin};
     const SearchModel search = prepare_search(model, margin);
     if (search.contacts.empty()) continue;
     const Walk walk =
@@ -184,8 +186,8 @@ void attack_with_plans(int count, int from) {
     const Scene scene = random_among_walls(square, range, i % 8 < 4, 5, i);
     const Model model = prepare(scene);
     PlanOptions options;
-    options.margin = Margin::none();
-    options.margin->weightless = i % 3 == 0;
+    if (i % 2 == 0) options.margin = Margin::none();
+    if (i % 6 == 0) options.margin->weightless = true;
     const Plan plan = plan_regrasp(model, options);
     if (plan.status != PlanStatus::kReachedGoal) continue;
     if (plan.promise == Promise::kNominalOnly) continue;
@@ -193,7 +195,7 @@ void attack_with_plans(int count, int from) {
     EXPECT_LE(plan.lower_bound, plan.cost * (1.0 + 1e-9)) << i;
     EXPECT_GE(plan.lower_bound, trivial_bound(model, scene.start, *scene.goal)) << i;
     EXPECT_FALSE(bound_holds(model, scene.start, *scene.goal, 1.03 * plan.cost,
-                             {.nodes = 800, .weightless = plan.margin.weightless}))
+                             {.nodes = 800, .margin = plan.margin}))
         << i;
   }
   EXPECT_GT(plans, 0.9 * count);
@@ -281,8 +283,10 @@ TEST(Bounds, OfPointsAskNothingMoreWithoutHelpOfGravity) {
     if (i % 2 == 0) scene = with_soft_points(scene);
     const Model model = prepare(scene);
     const auto bound = [&](bool weightless) {
+      Margin margin = Margin::none();
+      margin.weightless = weightless;
       return lower_bound(model, scene.start, *scene.goal, 3.0,
-                         {.nodes = 500, .weightless = weightless});
+                         {.nodes = 500, .margin = margin});
     };
     EXPECT_DOUBLE_EQ(bound(true).value, bound(false).value) << i;
     proved += bound(false).is_trivial ? 0 : 1;

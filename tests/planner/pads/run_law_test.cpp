@@ -16,15 +16,35 @@ using testing::advance_of;
 using testing::Random;
 using testing::random_kappa;
 using testing::random_law_scene;
+using testing::random_margin;
+using testing::robust_slack_of_pads;
 using testing::slack_of_pads;
 
 struct Tally {
   int sticking = 0, edges_near = 0, ends_near = 0, turns_near = 0;
 };
 
-/// One instant that sticks with the pads themselves obeys the law; `weightless`: that
-/// sticks without gravity as well.
-void check_instant(const Model& model, const RunLaws& laws, bool weightless,
+/// What the laws of a contact hold for.
+struct Promised {
+  Margin margin = Margin::none();
+  Vec2 begin = Vec2::Zero();  ///< of the plan [m]
+};
+
+/// Whether the instant sticks with the pads themselves, within the margin.
+bool sticks(const Model& model, const PushContact& contact, const PlanarPose& X_HO,
+            const Vec2& e, double kappa, const Promised& promised, Random& random) {
+  if (!(slack_of_pads(model, contact, X_HO, e, kappa) >= 0.0)) return false;
+  if (promised.margin.is_none()) return true;
+  const double travelled = random.chance(0.5) ? random.in(0.0, 0.03) : 0.0;
+  const Vec2 push_begin = finger_in_object(X_HO) + travelled * e;
+  const double before = (push_begin - promised.begin).norm() * random.in(1.0, 1.5);
+  return robust_slack_of_pads(model, contact, X_HO, e, kappa,
+                              {promised.begin, before, travelled},
+                              promised.margin) >= 0.0;
+}
+
+/// One instant that sticks with the pads themselves obeys the law.
+void check_instant(const Model& model, const RunLaws& laws, const Promised& promised,
                    Random& random, Tally& tally) {
   const int j = random.below(static_cast<int>(model.contacts.size()));
   const PushContact& contact = model.contacts[j];
@@ -36,13 +56,7 @@ void check_instant(const Model& model, const RunLaws& laws, bool weightless,
   const double kappa = random_kappa(random);
   const Vec2 p_OF = random.in_box(0.05, 0.05);
   const PlanarPose X_HO = pose_from_finger(p_OF, random.in(-kPi, kPi));
-  const auto sticks = [&](const PushContact& pushed) {
-    return slack_of_pads(model, pushed, X_HO, e, kappa) >= 0.0;
-  };
-  if (!sticks(contact)) return;
-  PushContact floating = contact;
-  floating.g_O.setZero();
-  if (weightless && !sticks(floating)) return;
+  if (!sticks(model, contact, X_HO, e, kappa, promised, random)) return;
   ++tally.sticking;
   const double dT = std::hypot(1.0, kappa);
   for (int k = 0; k < 2; ++k) {
@@ -66,7 +80,10 @@ void check_instant(const Model& model, const RunLaws& laws, bool weightless,
     least = std::min({least, above, below});
   }
   if (least < 3e-3 * dT) ++tally.ends_near;
-  if (advance_of(contact, p_OF, e, kappa / model.c) < 0.0) return;
+  const Margin margin = has_ring_pads(model)
+                            ? margin_of_rings(model, contact, promised.margin)
+                            : margin_of_laws(model, contact, promised.margin);
+  if (advance_of(contact, p_OF, e, kappa / model.c, margin) < 0.0) return;
   const double at = law.t.dot(p_OF);
   for (const double turn : {kappa / model.c, -kappa / model.c}) {
     const double beside = turn == kappa / model.c ? law.face[0] - at : at - law.face[1];
@@ -83,11 +100,15 @@ void check_instants(int scenes, int instants, std::uint64_t seed) {
   for (int i = 0; i < scenes; ++i) {
     const Scene scene = random_law_scene(random);
     const Model model = prepare(scene, {.points_per_pad = random.chance(0.7) ? 16 : 64});
-    const bool weightless = random.chance(0.3);
-    const RunLaws laws = run_laws(model, weightless);
+    Promised promised;
+    if (random.chance(0.6)) {
+      promised.margin = random_margin(random);
+      promised.begin = random.in_box(0.05, 0.05);
+    }
+    const RunLaws laws = run_laws(model, promised.margin, promised.begin);
     ASSERT_FALSE(laws.empty());
     for (int k = 0; k < instants; ++k) {
-      check_instant(model, laws, weightless, random, tally);
+      check_instant(model, laws, promised, random, tally);
     }
   }
   EXPECT_GT(tally.sticking, scenes * instants / 20);

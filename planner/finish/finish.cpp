@@ -92,6 +92,7 @@ std::vector<Plan> polished(const SearchModel& search, const Limits& limits, Work
     staying.points_stay = true;
     keep_run(staying);
   }
+  if (const auto ellipsoid = over_ellipsoid(search)) keep_run(*ellipsoid);
   keep_polished(plan);
   const auto sort = [&] {
     for (Plan& one : plans) account(*search.model, one);

@@ -51,6 +51,9 @@ std::optional<std::vector<Move>> search_with_real_pads(const SearchModel& search
   return moves;
 }
 
+/// Cost over the guide bound from which plans of many turns are looked for.
+constexpr double kWorthWinding = 2.0;
+
 /// Of what is left of the budget, for walks around one loop.
 constexpr double kShareOfLoops = 0.7;
 
@@ -140,10 +143,10 @@ std::optional<std::vector<Move>> search_plane(const SearchModel& search,
       best.offer(std::move(*near), kWorthTolerance);
     }
   }
-  if (!best.any() && !limits.improves() && !limits.reached()) {
-    if (auto wound = search_wound(search, from, goal, goals, bound, limits, work)) {
-      return wound;
-    }
+  if (best.cost() > kWorthWinding * bound && !limits.improves() && !limits.reached()) {
+    auto wound = search_wound(search, from, goal, goals, bound, limits, work);
+    if (wound && !best.any()) return wound;
+    if (wound) best.offer(std::move(*wound), kWorthTolerance);
   }
   const double cost_of_first = direct ? cost_of(search, {*direct}) : best.cost();
   const GoalPlaces beside = tolerated_places(*search.model, goal, from);

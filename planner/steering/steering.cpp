@@ -220,6 +220,13 @@ SearchModel prepare_search(const Model& model, const Margin& margin, int left_ou
   return search;
 }
 
+std::optional<SearchModel> over_ellipsoid(const SearchModel& search) {
+  if (!search.rings || search.margin.is_none()) return std::nullopt;
+  SearchModel ellipsoid = search;
+  ellipsoid.rings.reset();
+  return ellipsoid;
+}
+
 SearchModel with_margin(const SearchModel& search, const Margin& margin) {
   SearchModel other = search;
   other.margin = margin;

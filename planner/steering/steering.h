@@ -95,6 +95,10 @@ inline bool is_placed_anew(const SearchModel& search, int contact, int before) n
 /// none. `model` must outlive the result.
 SearchModel prepare_search(const Model& model, const Margin& margin, int left_out = -1);
 
+/// Steered by the ellipsoid where a margin is kept over rings: plans that rings leave out
+/// at the border of the box, of which the exact check asks less. None elsewhere.
+std::optional<SearchModel> over_ellipsoid(const SearchModel& search);
+
 /// The same contacts in the same order, at another margin: points that it would drive off
 /// their face stay in its middle.
 SearchModel with_margin(const SearchModel& search, const Margin& margin);

@@ -85,7 +85,7 @@ double slack_by_laws(const Model& model, const PushContact& contact, const Insta
     const double v = at.velocity.norm();
     const Vec2 e = v > 0.0 ? Vec2(at.velocity / v) : contact.n;
     return ring_slack(model, contact, p_OF, e, kInstant * v, kInstant * at.omega,
-                      margin_of_rings(model, contact, margin));
+                      margin_of_laws(model, contact, margin));
   }
   if (has_clipped_discs(model)) {
     return spread_slack(model, contact, p_OF, at.velocity, at.omega);
@@ -161,7 +161,7 @@ double push_slack(const Model& model, const Grasp& start, const Push& push,
   double slack = std::numeric_limits<double>::infinity();
   if (has_ring_pads(model)) {
     slack = ring_slack(model, contact, p_OF, linear.e, linear.travel, linear.turn,
-                       margin_of_rings(model, contact, margin));
+                       margin_of_laws(model, contact, margin));
   } else if (has_clipped_discs(model)) {
     slack = spread_slack_along(model, contact, p_OF, linear.e, linear.travel, linear.turn,
                                most_spread_parts);

@@ -64,12 +64,6 @@ constexpr double kWorthLessSlack = 0.98;
 /// Share of the cost that is way, above which a tenth of the way is worth as much.
 constexpr double kLongWay = 0.18;
 
-bool has_points(const SearchModel& search) {
-  return std::ranges::any_of(search.contacts, [](const SearchContact& contact) {
-    return contact.stick.is_point;
-  });
-}
-
 /// A plan found, a run of one placement in its stead, and three pushes in the stead of
 /// both, each polished; and the best of them by what the real pads allow, then by what
 /// the exact check does where the closed form knows less, where it may still be far from

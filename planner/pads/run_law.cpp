@@ -18,8 +18,6 @@ constexpr double kWidestCone = 1.4;  // [rad] from the normal
 /// A little friction where there is none: the edges of a cone without width are parallel.
 constexpr double kNarrowestCone = 1e-6;
 
-constexpr double kShareOfRings = 0.9;  // of the margin
-
 /// One edge of the friction cone of a contact, with what gravity asks of it, G, and of
 /// the other edge, over F; the motions that it allows lie within half_angle [rad] of the
 /// normal, and with pads that pull aside in a cone widened by `widening` [rad].
@@ -288,11 +286,6 @@ Margin margin_of_laws(const Model& model, const PushContact& contact,
   return of_point;
 }
 
-Margin margin_of_rings(const Model& model, const PushContact& contact,
-                       const Margin& margin) {
-  return margin_of_laws(model, contact, margin.scaled(kShareOfRings));
-}
-
 RunLaw ellipsoid_law(const StickContact& stick, const Margin& margin, const Vec2& begin) {
   const WeakContact contact(stick, margin, begin);
   RunLaw law;
@@ -335,9 +328,10 @@ RunLaws run_laws(const Model& model, const Margin& margin, const Vec2& begin) {
   for (const PushContact& contact : model.contacts) {
     if (model.needs_space(contact)) return {};
   }
-  const bool soft = model.has_soft_points(), rings = has_ring_pads(model);
-  if (!soft && !rings && !alike_at_quarter_turns(model.region.whole(), model.c))
+  const bool soft = model.has_soft_points();
+  if (!has_round_pads(model) && !alike_at_quarter_turns(model.region.whole(), model.c)) {
     return {};
+  }
   PadSection section;
   if (!soft) section = pad_section(model);
   if (!soft && section.cells.empty()) return {};
@@ -347,8 +341,7 @@ RunLaws run_laws(const Model& model, const Margin& margin, const Vec2& begin) {
   laws.contacts.reserve(model.contacts.size());
   for (const PushContact& contact : model.contacts) {
     if (std::atan(contact.mu) + widening > kWidestCone) return {};
-    const Margin part = rings ? margin_of_rings(model, contact, margin)
-                              : margin_of_laws(model, contact, margin);
+    const Margin part = margin_of_laws(model, contact, margin);
     laws.contacts.push_back(
         soft ? ellipsoid_law(whole_face(model, contact), part, begin)
              : run_law(model, contact, section, widening, part, begin));

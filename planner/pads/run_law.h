@@ -78,11 +78,6 @@ struct RunLaws {
 Margin margin_of_laws(const Model& model, const PushContact& contact,
                       const Margin& margin);
 
-/// What of a margin pushes have to survive with ring pads (ring_pads.h), besides all of
-/// it with the pads' points, for which they are planned.
-Margin margin_of_rings(const Model& model, const PushContact& contact,
-                       const Margin& margin);
-
 /// The laws over the ellipsoid, for which they are exact where the margin is none: those
 /// of single instants, each contact with its own margin, of plans with this `begin` [m].
 RunLaw ellipsoid_law(const StickContact& stick, const Margin& margin, const Vec2& begin);

@@ -143,7 +143,10 @@ std::optional<std::vector<Move>> search_plane(const SearchModel& search,
       best.offer(std::move(*near), kWorthTolerance);
     }
   }
-  if (best.cost() > kWorthWinding * bound && !limits.improves() && !limits.reached()) {
+  const bool is_whole =
+      !has_points(search);  // pushes by points are polished to cheaper ones
+  const bool may_wind = !best.any() || (is_whole && best.cost() > kWorthWinding * bound);
+  if (may_wind && !limits.improves() && !limits.reached()) {
     auto wound = search_wound(search, from, goal, goals, bound, limits, work);
     if (wound && !best.any()) return wound;
     if (wound) best.offer(std::move(*wound), kWorthTolerance);

@@ -220,6 +220,12 @@ SearchModel prepare_search(const Model& model, const Margin& margin, int left_ou
   return search;
 }
 
+bool has_points(const SearchModel& search) noexcept {
+  return std::ranges::any_of(search.contacts, [](const SearchContact& contact) {
+    return contact.stick.is_point;
+  });
+}
+
 std::optional<SearchModel> over_ellipsoid(const SearchModel& search) {
   if (!search.rings || search.margin.is_none()) return std::nullopt;
   SearchModel ellipsoid = search;

@@ -88,6 +88,9 @@ inline bool is_placed_anew(const SearchModel& search, int contact, int before) n
          (search.contacts[contact].stick.is_point && !search.points_stay);
 }
 
+/// Whether any pusher is a point.
+bool has_points(const SearchModel& search) noexcept;
+
 /// Compiles the contacts: a line pusher that covers its face stands at the face's centre,
 /// a shorter one at places so close that they cover the face, a point pusher anywhere on
 /// the face but `margin.place` from its ends. No contacts where the grasp has no friction
@@ -95,8 +98,8 @@ inline bool is_placed_anew(const SearchModel& search, int contact, int before) n
 /// none. `model` must outlive the result.
 SearchModel prepare_search(const Model& model, const Margin& margin, int left_out = -1);
 
-/// Steered by the ellipsoid where a margin is kept over rings: plans that rings leave out
-/// at the border of the box, of which the exact check asks less. None elsewhere.
+/// Steered by the ellipsoid where a margin is kept over rings: its laws lead to some ways
+/// that those of rings do not, and which stick with rings, too. None elsewhere.
 std::optional<SearchModel> over_ellipsoid(const SearchModel& search);
 
 /// The same contacts in the same order, at another margin: points that it would drive off

@@ -111,7 +111,7 @@ inline double robust_slack_of_pads(const Model& model, const PushContact& contac
   const Margin here = carried(margin, at.carried_on);
   if (has_ring_pads(model)) {
     return ring_slack(model, contact, p_OF + at.travelled * e, e, 1.0, omega,
-                      margin_of_rings(model, contact, here));
+                      margin_of_laws(model, contact, here));
   }
   return exact_stick_test(model, contact, 0.0, X_HO, e, 1.0, omega, here, at.travelled)
       .slack;

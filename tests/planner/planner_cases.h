@@ -124,4 +124,10 @@ inline void print_times(const std::string& what, std::vector<double> seconds) {
               1e6 * seconds[n - 1]);
 }
 
+/// As the ellipsoid steers with this margin.
+inline SearchModel search_over_ellipsoid(const Model& model, const Margin& margin) {
+  const SearchModel search = prepare_search(model, margin);
+  return over_ellipsoid(search).value_or(search);
+}
+
 }  // namespace prehensile::testing

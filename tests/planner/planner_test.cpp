@@ -253,7 +253,7 @@ TEST(Planner, PolishNeverLengthens) {
 /// Shortest runs bend: two placements, and more than two pushes.
 TEST(Planner, PolishBendsPushes) {
   int bent = 0;
-  for (const std::uint64_t i : {83, 90}) {
+  for (const std::uint64_t i : {12, 39}) {
     Scene scene =
         with_soft_points(random_among_walls(false, RegraspRange::kWide, false, 1, i));
     scene.goal->position_tolerance = 1e-6;

@@ -10,10 +10,10 @@
 
 namespace prehensile::testing {
 
-/// With the usual margin.
+/// With the usual margin, over the ellipsoid.
 struct RejectedPlan {
   explicit RejectedPlan(const Scene& scene)
-      : model(prepare(scene)), search(prepare_search(model, usual_margin(model))) {
+      : model(prepare(scene)), search(search_over_ellipsoid(model, usual_margin(model))) {
     plan = search_pushes(search, scene.start, *scene.goal, options, work);
     plan.margin = search.margin;
   }

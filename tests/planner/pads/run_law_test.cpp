@@ -80,9 +80,7 @@ void check_instant(const Model& model, const RunLaws& laws, const Promised& prom
     least = std::min({least, above, below});
   }
   if (least < 3e-3 * dT) ++tally.ends_near;
-  const Margin margin = has_ring_pads(model)
-                            ? margin_of_rings(model, contact, promised.margin)
-                            : margin_of_laws(model, contact, promised.margin);
+  const Margin margin = margin_of_laws(model, contact, promised.margin);
   if (advance_of(contact, p_OF, e, kappa / model.c, margin) < 0.0) return;
   const double at = law.t.dot(p_OF);
   for (const double turn : {kappa / model.c, -kappa / model.c}) {

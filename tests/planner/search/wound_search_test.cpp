@@ -14,6 +14,7 @@
 #include "planner/steering/goal.h"
 #include "primitives/uncertainty.h"
 #include "problems/published_regrasps.h"
+#include "tests/planner/planner_cases.h"
 #include "tests/planner/walled_scene.h"
 #include "tests/support/random.h"
 
@@ -91,7 +92,7 @@ TEST(WoundSearch, FindsPushesNoDearerThanTheOneThatWindsUp) {
 TEST(WoundSearch, EndsBesideTheGoalWhereThatIsAllThatOnePushMeets) {
   const Scene scene = random_among_walls(false, RegraspRange::kWide, false, 1, 376);
   const Model model = prepare(scene);
-  const SearchModel search = prepare_search(model, usual_margin(model));
+  const SearchModel search = testing::search_over_ellipsoid(model, usual_margin(model));
   const Goal& goal = *scene.goal;
   const FlatState from = flat_state(scene.start);
   PlanOptions options;
@@ -113,16 +114,20 @@ TEST(WoundSearch, EndsBesideTheGoalWhereThatIsAllThatOnePushMeets) {
 
 /// A search for cheaper plans does not end with one that winds the object up.
 TEST(WoundSearch, IsNoEndOfASearchForCheaperPlans) {
-  const Model model =
-      prepare(random_among_walls(true, RegraspRange::kWide, true, 1, 124));
-  PlanOptions options;
-  options.budget = 2'000'000;
-  const Plan plan = plan_regrasp(model, options);
-  ASSERT_TRUE(plan.usable()) << plan.message;
-  const double turned = plan.goal.X_HO.theta - plan.start.X_HO.theta;
-  EXPECT_GT(std::abs(turned), 2.0 * kTurn);
-  options.improve = true;
-  EXPECT_LT(plan_regrasp(model, options).cost, 0.8 * plan.cost);
+  const auto share_of_cost = [](std::uint64_t index, double least_turned) {
+    const Model model =
+        prepare(random_among_walls(true, RegraspRange::kWide, true, 1, index));
+    PlanOptions options;
+    options.budget = 2'000'000;
+    const Plan plan = plan_regrasp(model, options);
+    EXPECT_TRUE(plan.usable()) << plan.message;
+    const double turned = plan.goal.X_HO.theta - plan.start.X_HO.theta;
+    EXPECT_GT(std::abs(turned), least_turned);
+    options.improve = true;
+    return plan_regrasp(model, options).cost / plan.cost;
+  };
+  EXPECT_LT(share_of_cost(318, 2.0 * kTurn), 0.98);
+  EXPECT_LT(share_of_cost(124, 0.0), 0.8);
 }
 
 }  // namespace

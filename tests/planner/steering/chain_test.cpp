@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "planner/pads/ring_pads.h"
 #include "tests/planner/planner_cases.h"
 #include "tests/support/random.h"
 
@@ -61,7 +62,7 @@ double scanned_travel(const Chain& chain, double c_dtheta) {
 class ChainTest : public ::testing::Test {
  protected:
   Model model_ = prepare(published_square(0));
-  SearchModel search_ = prepare_search(model_, Margin{});
+  SearchModel search_ = testing::search_over_ellipsoid(model_, Margin{});
 };
 
 TEST_F(ChainTest, FindsTheShortestOfAllRotations) {
@@ -154,6 +155,35 @@ TEST_F(ChainTest, LegsAgreeWithTheSteeringOfTheirMoves) {
     EXPECT_TRUE(move_sticks(search_, contact, {from, 0.3}, {to, 0.3 + turn}, work)) << i;
   }
   EXPECT_GT(legs, 1000);
+}
+
+TEST_F(ChainTest, LegsOverDiscsTurnAsRingsLetThem) {
+  const SearchModel search = prepare_search(model_, Margin{});
+  ASSERT_TRUE(search.rings);
+  Random random(5);
+  Work work{.budget = kNoBudget};
+  int legs = 0, wider = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const Vec2 from = random.in_box(0.045, 0.045);
+    const Vec2 way = random.in_disc(0.03);
+    const int contact = random.below(static_cast<int>(search.contacts.size()));
+    Leg leg, other;
+    if (!make_leg({search}, contact, {from}, {from + way}, work, leg)) continue;
+    ++legs;
+    const PushContact& pushed = model_.contacts[search.contacts[contact].contact];
+    const auto [lo, hi] = leg.kappas.intervals[0];
+    for (const double kappa : {lo, 0.5 * (lo + hi), hi}) {
+      const double turn = kappa * leg.length / model_.c;
+      EXPECT_GE(ring_slack(model_, pushed, from, -way.normalized(), leg.length, turn,
+                           search.margin_from(from)),
+                -1e-6)
+          << i;
+    }
+    wider += make_leg({search_}, contact, {from}, {from + way}, work, other) &&
+             hi - lo > other.kappas.intervals[0].hi - other.kappas.intervals[0].lo + 0.1;
+  }
+  EXPECT_GT(legs, 1000);
+  EXPECT_GT(wider, legs / 20);
 }
 
 /// Steeper pushes stick as well, and would turn the object by more than anybody wants.

@@ -222,6 +222,27 @@ TEST(Bounds, OfALargerGoalHoldForASmallerOne) {
   EXPECT_GT(proved, 5);
 }
 
+/// Plans that survive a margin are some of all plans: what is proved of all holds for
+/// them, and now and then more is.
+TEST(Bounds, GrowWithTheMargin) {
+  int greater = 0;
+  for (int i = 0; i < 60; ++i) {
+    Scene scene = random_among_walls(i % 2 == 0, RegraspRange::kWide, i % 4 < 2, 7, i);
+    if (i % 3 == 0) scene = with_soft_points(scene);
+    const Model model = prepare(scene);
+    const auto bound = [&](const Margin& margin) {
+      return lower_bound(model, scene.start, *scene.goal, 4.0,
+                         {.nodes = 3000, .margin = margin})
+          .value;
+    };
+    const double nominal = bound(Margin::none());
+    const double robust = bound(Margin{.grasp = 0.7e-3, .tilt = 0.009});
+    EXPECT_GE(robust, 0.98 * nominal) << i;  // the work ends
+    greater += robust > 1.01 * nominal;
+  }
+  EXPECT_GT(greater, 10);
+}
+
 /// Another zero of the hand's angle changes nothing: whole discs feel alike.
 TEST(Bounds, DoNotDependOnTheFrameOfTheHand) {
   Random random(7);

@@ -371,5 +371,27 @@ TEST(Steering, AGivenEndExcusesThePathNearItOnly) {
   EXPECT_GT(excused, 100);
 }
 
+/// Only a margin over discs is kept by the ellipsoid otherwise than by rings.
+TEST(Steering, IsOverTheEllipsoidWhereAMarginIsKeptOverDiscs) {
+  const Scene discs = published_square(0);
+  const Model model = prepare(discs);
+  const auto ellipsoid = over_ellipsoid(prepare_search(model, Margin{}));
+  ASSERT_TRUE(ellipsoid);
+  EXPECT_FALSE(ellipsoid->rings);
+  EXPECT_EQ(ellipsoid->margin.friction, Margin{}.friction);
+  EXPECT_FALSE(over_ellipsoid(prepare_search(model, Margin::none())));
+  const Model soft = prepare(with_soft_points(discs));
+  EXPECT_FALSE(over_ellipsoid(prepare_search(soft, Margin{})));
+}
+
+TEST(Steering, KnowsWhetherAnyPusherIsAPoint) {
+  Scene scene = published_square(0);
+  const Model lines = prepare(scene);
+  EXPECT_FALSE(has_points(prepare_search(lines, Margin{})));
+  scene.pushers[0].feature = PointFeature{};
+  const Model one = prepare(scene);
+  EXPECT_TRUE(has_points(prepare_search(one, Margin{})));
+}
+
 }  // namespace
 }  // namespace prehensile

@@ -51,9 +51,9 @@ struct LowerBound {
 /// sequences of contacts and the places where they switch (word_bound.h), with what a way
 /// across the object costs whichever contacts push (slab_travel.h), those of the nominal
 /// scene. Over round pads it is a bound for plans that stick with their rings
-/// (ring_pads.h) over the margin, as every plan has to. Trivial where the goal leaves a coordinate of the place free, where the pads are
-/// neither soft points nor whole discs wherever they are, and where pushes need the
-/// mechanics in space. Deterministic.
+/// (ring_pads.h) over the margin, as every plan has to. Trivial where the goal leaves a
+/// coordinate of the place free, where the pads are neither soft points nor whole discs
+/// wherever they are, and where pushes need the mechanics in space. Deterministic.
 LowerBound lower_bound(const Model& model, const Grasp& start, const Goal& goal,
                        double cost, const BoundOptions& options = {});
 

@@ -70,7 +70,7 @@ struct SearchModel {
                                   ///< they do, but so plans of more of them are found
   Vec2 p_OF_start = Vec2::Zero();
   std::shared_ptr<const Confines> confines;  ///< null where the scene names none
-  std::shared_ptr<const RingTable> rings;  ///< of round pads
+  std::shared_ptr<const RingTable> rings;    ///< of round pads
 
   /// The margin of a push that begins here: tilted pushes have carried the finger axis
   /// off its place by a share of its way, of which the straight one is the least. The

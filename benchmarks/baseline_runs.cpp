@@ -92,8 +92,8 @@ bool passes(const Model& model, const PlanOptions& options, Plan& plan) {
     return false;
   }
   account(model, plan);
-  const LowerBound bound =
-      lower_bound(model, model.scene.start, *model.scene.goal, plan.cost);
+  const LowerBound bound = lower_bound(model, model.scene.start, *model.scene.goal,
+                                       plan.cost, {.margin = plan.margin});
   plan.lower_bound = bound.value;
   plan.bound_is_trivial = bound.is_trivial;
   plan.bound_nodes = bound.nodes;

@@ -1,6 +1,6 @@
 /// The inequalities of a sticking instant at the worst of a margin's box, but for the
 /// torque radius: for friction of isotropic pads over F, f along the motion and m [m]
-/// about the finger axis.
+/// about the finger axis. Internal to the closed forms.
 #pragma once
 
 #include <algorithm>
@@ -22,25 +22,43 @@ struct StickRows {
   StickRow end_a, end_b;         ///< [m] of the face: side -1 and 1
 };
 
+/// What gravity asks of the row n, t of the force at most, over F: n f_n + t f_t >= this,
+/// while it may be turned by `tilt` [rad].
+inline double asked_by_gravity(const StickContact& contact, double n, double t,
+                               double tilt) noexcept {
+  const double gamma_n = contact.gamma.dot(contact.n);
+  const double gamma_t = contact.gamma.dot(contact.t);
+  return -least_turned(-(n * gamma_n + t * gamma_t), n * gamma_t - t * gamma_n, tilt);
+}
+
+/// What gravity asks of the moment about an end of the face at most, over F [m]: side -1
+/// about a, 1 about b; the ends as moved by the margin. Its lever about an end is that of
+/// the centre of mass.
+inline double asked_about_end(const StickContact& contact, const Vec2& end, double side,
+                              const Margin& margin) noexcept {
+  const Vec2 lever = contact.p_OCom - end;
+  return margin.centre_of_mass * contact.gamma.norm() -
+         least_turned(-side * cross(lever, contact.gamma), lever.dot(contact.gamma),
+                      margin.tilt);
+}
+
+/// The greatest of it over the margin's weights.
+inline double most_asked(double asked, const Margin& margin) noexcept {
+  return asked * (asked > 0.0 ? margin.most_weight() : margin.least_weight());
+}
+
 /// The least friction is the worst because the normal force is positive. The moments are
 /// affine in m/F, in the places of pusher, finger axis and centre of mass, so the worst
-/// of each is known beforehand. The finger axis counts for the drag only: of gravity the
-/// lever about a face end is that of the centre of mass. A margin does not concern the
-/// ends of a point pusher.
+/// of each is known beforehand. The finger axis counts for the drag only. A margin does
+/// not concern the ends of a point pusher.
 inline StickRows stick_rows(const StickContact& contact, const Vec2& p_OF, const Vec2& e,
                             const Margin& margin) noexcept {
-  const auto worst = [&](double B) {  // over the weight
-    return B > 0.0 ? margin.most_weight() * B : margin.least_weight() * B;
-  };
   const double mu = contact.mu * std::max(0.0, 1.0 - margin.friction);
   const double e_n = e.dot(contact.n);
   const double e_t = e.dot(contact.t);
-  const double gamma_n = contact.gamma.dot(contact.n);
-  const double gamma_t = contact.gamma.dot(contact.t);
   const auto edge = [&](double n, double t) {  // the row n, t of force >= 0
     return StickRow{least_turned(n * e_n + t * e_t, n * e_t - t * e_n, margin.tilt),
-                    worst(-least_turned(-(n * gamma_n + t * gamma_t),
-                                        n * gamma_t - t * gamma_n, margin.tilt))};
+                    most_asked(asked_by_gravity(contact, n, t, margin.tilt), margin)};
   };
   StickRows rows;
   rows.edge[rows.edges++] = edge(mu, -1.0);
@@ -51,13 +69,11 @@ inline StickRows stick_rows(const StickContact& contact, const Vec2& p_OF, const
   const Margin none = Margin::none();
   const Margin& of_ends = contact.is_point ? none : margin;
   const auto end = [&](double side, const Vec2& place) {
-    const auto turned = [&](double sign, const Vec2& lever, const Vec2& vector) {
-      return least_turned(sign * cross(lever, vector), lever.dot(vector), of_ends.tilt);
-    };
-    const double B = of_ends.centre_of_mass * contact.gamma.norm() -
-                     turned(-side, contact.p_OCom - place, contact.gamma);
-    return StickRow{turned(side, p_OF - place, e) - of_ends.grasp,
-                    B > 0.0 ? of_ends.most_weight() * B : of_ends.least_weight() * B};
+    const Vec2 lever = p_OF - place;
+    const double moment =
+        least_turned(side * cross(lever, e), lever.dot(e), of_ends.tilt) - of_ends.grasp;
+    return StickRow{moment,
+                    most_asked(asked_about_end(contact, place, side, of_ends), of_ends)};
   };
   rows.end_a = end(-1.0, contact.a + of_ends.place * contact.t);
   rows.end_b = end(1.0, contact.b - of_ends.place * contact.t);

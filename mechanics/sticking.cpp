@@ -185,6 +185,13 @@ StickContact stick_contact(const Model& model, const PushContact& contact, doubl
   return stick;
 }
 
+StickContact face_contact(const Model& model, const PushContact& contact) {
+  StickContact stick = stick_contact(model, contact, 0.0);
+  stick.a = contact.a;
+  stick.b = contact.b;
+  return stick;
+}
+
 StickTest stick_test(const StickContact& contact, double F, const Vec2& p_OF,
                      const Vec2& e, double v, double omega) noexcept {
   const Vec2 velocity = v * e;

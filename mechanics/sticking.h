@@ -96,6 +96,9 @@ struct StickContact {
 /// The model's F and c must be positive.
 StickContact stick_contact(const Model& model, const PushContact& contact, double place);
 
+/// The same with a pusher anywhere on the face: its ends are those of the face.
+StickContact face_contact(const Model& model, const PushContact& contact);
+
 /// At most four closed intervals of kappa in ascending order; unbounded ends are
 /// +-infinity. One interval is the rule; gaps appear only where gravity helps to keep the
 /// contact.
@@ -152,8 +155,9 @@ double robust_slack(const StickContact& contact, const Vec2& p_OF, const Vec2& v
                     double least = -std::numeric_limits<double>::infinity()) noexcept;
 
 /// Least slack over the box of uncertainty of cone and face ends, as in `robust_slack`,
-/// where the friction that the object overcomes, over F, is one of these: the same motion
-/// over other torque radii. A tilted motion begins at p_OF. No heap.
+/// where the friction that the object overcomes, over F (force in O, moment [m] about the
+/// finger axis), is one of these: the same motion over other torque radii. A tilted
+/// motion begins at p_OF. Whether the pusher advances is not looked at. No heap.
 double slack_of_frictions(const StickContact& contact, const Vec2& p_OF,
                           std::span<const PadDrag> frictions,
                           const Margin& margin) noexcept;

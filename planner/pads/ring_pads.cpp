@@ -104,20 +104,9 @@ double slack_of_friction(const Model& model, const PushContact& contact, const V
 }
 
 double ring_slack(const Model& model, const PushContact& contact, const Vec2& p_OF,
-                  const Vec2& e, double travel, double turn) noexcept {
-  const double spin = model.c * std::abs(turn);
-  if (travel == 0.0 && spin == 0.0) return kNan;
-  const RingFriction friction =
-      ring_friction(model.region.whole(), model.c, std::atan2(spin, travel));
-  return slack_of_friction(model, contact, p_OF,
-                           {friction.along * e, std::copysign(friction.moment, turn)});
-}
-
-double ring_slack(const Model& model, const PushContact& contact, const Vec2& p_OF,
                   const Vec2& e, double travel, double turn,
                   const Margin& margin) noexcept {
-  const double nominal = ring_slack(model, contact, p_OF, e, travel, turn);
-  if (margin.is_none() || !(nominal >= 0.0)) return nominal;
+  if (travel == 0.0 && turn == 0.0) return kNan;
   const auto friction_of = [&](double stretch) {
     // Stretched pads turn as if faster, by levers that are longer.
     const double spin = stretch * model.c * std::abs(turn);
@@ -125,13 +114,14 @@ double ring_slack(const Model& model, const PushContact& contact, const Vec2& p_
         ring_friction(model.region.whole(), model.c, std::atan2(spin, travel));
     return PadDrag{friction.along * e, std::copysign(stretch * friction.moment, turn)};
   };
-  StickContact stick = stick_contact(model, contact, 0.0);
-  stick.a = contact.a;
-  stick.b = contact.b;
+  const PadDrag nominal = friction_of(1.0);
+  const double slack = slack_of_friction(model, contact, p_OF, nominal);
+  if (margin.is_none() || !(slack >= 0.0)) return slack;
   const double r = margin.torque_radius;
-  const std::array frictions = {friction_of(1.0), friction_of(std::max(0.0, 1.0 - r)),
+  const std::array frictions = {nominal, friction_of(std::max(0.0, 1.0 - r)),
                                 friction_of(1.0 + r)};
-  return std::min(nominal, slack_of_frictions(stick, p_OF, frictions, margin));
+  return std::min(
+      slack, slack_of_frictions(face_contact(model, contact), p_OF, frictions, margin));
 }
 
 }  // namespace prehensile

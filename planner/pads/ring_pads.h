@@ -38,16 +38,12 @@ RingFriction ring_friction(const ContactPoints& points, double c, double angle);
 double slack_of_friction(const Model& model, const PushContact& contact, const Vec2& p_OF,
                          const PadDrag& friction) noexcept;
 
-/// Least slack of a sticking push with ring pads, all along it: of the friction cone over
-/// F, and of the moments about the ends of the face over F c. The finger axis begins at
-/// p_OF and moves by -travel * e in O while the object turns by `turn` in the hand;
-/// NaN where nothing moves. No heap.
-double ring_slack(const Model& model, const PushContact& contact, const Vec2& p_OF,
-                  const Vec2& e, double travel, double turn) noexcept;
-
-/// The same over a margin, wherever on its face the pusher is. No heap.
+/// Least slack of a sticking push with ring pads over a margin, all along it: of the
+/// friction cone over F, and of the moments about the ends of the face over F c. The
+/// finger axis begins at p_OF and moves by -travel * e in O while the object turns by
+/// `turn` in the hand; NaN where nothing moves. No heap.
 double ring_slack(const Model& model, const PushContact& contact, const Vec2& p_OF,
                   const Vec2& e, double travel, double turn,
-                  const Margin& margin) noexcept;
+                  const Margin& margin = Margin::none()) noexcept;
 
 }  // namespace prehensile

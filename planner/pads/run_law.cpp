@@ -235,14 +235,6 @@ RunLaw stricter(const RunLaw& one, const RunLaw& other) {
   return law;
 }
 
-/// At every place of a pusher on the face.
-StickContact whole_face(const Model& model, const PushContact& contact) {
-  StickContact stick = stick_contact(model, contact, 0.0);
-  stick.a = contact.a;
-  stick.b = contact.b;
-  return stick;
-}
-
 double greatest_deviation(const Cells& cells) {
   double most = 0.0;
   for (const SectionCell& cell : cells) most = std::max(most, cell.deviation);
@@ -251,7 +243,7 @@ double greatest_deviation(const Cells& cells) {
 
 RunLaw run_law(const Model& model, const PushContact& pushed, const PadSection& section,
                double widening, const Margin& margin, const Vec2& begin) {
-  const WeakContact contact(whole_face(model, pushed), margin, begin);
+  const WeakContact contact(face_contact(model, pushed), margin, begin);
   const double grasp = margin.grasp;
   const double least = margin.least_weight(), most = margin.most_weight();
   const RunLaw law = law_at(model, contact, section, widening, most, grasp);
@@ -343,7 +335,7 @@ RunLaws run_laws(const Model& model, const Margin& margin, const Vec2& begin) {
     if (std::atan(contact.mu) + widening > kWidestCone) return {};
     const Margin part = margin_of_laws(model, contact, margin);
     laws.contacts.push_back(
-        soft ? ellipsoid_law(whole_face(model, contact), part, begin)
+        soft ? ellipsoid_law(face_contact(model, contact), part, begin)
              : run_law(model, contact, section, widening, part, begin));
     laws.C = ellipsoid_moments(model.c, part);
   }

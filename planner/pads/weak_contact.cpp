@@ -31,8 +31,7 @@ WeakContact::WeakContact(const StickContact& stick, const Margin& margin,
       w{mu * n + t, mu * n - t},
       half_angle(std::max(0.0, std::atan(mu) - margin.tilt)),
       stretch(stretches_of(margin)),
-      gamma_(stick.gamma),
-      p_OCom_(stick.p_OCom),
+      stick_(stick),
       margin_(margin) {
   const auto [low, high] = std::minmax({t.dot(end[0]), t.dot(end[1])});
   face = {low + margin.grasp, high - margin.grasp};
@@ -42,25 +41,23 @@ WeakContact::WeakContact(const StickContact& stick, const Margin& margin,
 }
 
 double WeakContact::asked_of_edge(int k, double weight) const {
-  return -weight * least_turned(-w[k].dot(gamma_), cross(w[k], gamma_), margin_.tilt);
+  return weight * asked_by_gravity(stick_, mu, k == 0 ? 1.0 : -1.0, margin_.tilt);
+}
+
+double WeakContact::asked_about(int k) const {
+  return asked_about_end(stick_, end[k], k == 0 ? 1.0 : -1.0, margin_);
 }
 
 double WeakContact::help_at_end(int k, double weight) const {
-  const double side = k == 0 ? 1.0 : -1.0;
-  const Vec2 lever = p_OCom_ - end[k];
-  return weight *
-         (least_turned(-side * cross(lever, gamma_), lever.dot(gamma_), margin_.tilt) -
-          margin_.centre_of_mass * gamma_.norm());
+  return -weight * asked_about(k);
 }
 
 double WeakContact::most_asked_of_edge(int k) const {
-  return std::max(asked_of_edge(k, margin_.least_weight()),
-                  asked_of_edge(k, margin_.most_weight()));
+  return most_asked(asked_of_edge(k, 1.0), margin_);
 }
 
 double WeakContact::least_help_at_end(int k) const {
-  return std::min(help_at_end(k, margin_.least_weight()),
-                  help_at_end(k, margin_.most_weight()));
+  return -most_asked(asked_about(k), margin_);
 }
 
 }  // namespace prehensile

@@ -7,7 +7,7 @@
 
 #include <array>
 
-#include "mechanics/sticking.h"
+#include "mechanics/stick_rows.h"
 
 namespace prehensile {
 
@@ -15,13 +15,13 @@ struct WeakContact {
   /// Of pushes of a plan that begins with the finger axis at `begin`.
   WeakContact(const StickContact& stick, const Margin& margin, const Vec2& begin);
 
-  /// Gravity across edge k of the cone, over F, at so much of the weight: w_k.f has to be
-  /// as much.
+  /// What gravity asks of edge k of the cone, over F, at so much of the weight: w_k.f has
+  /// to be as much.
   double asked_of_edge(int k, double weight) const;
-  /// Moment of gravity about end k of the face (0: b, 1: a) at so much of the weight that
-  /// helps to stay on it [m].
+  /// Moment of gravity about end k of the face (0: b, 1: a) over F, at so much of the
+  /// weight, that helps to stay on it [m].
   double help_at_end(int k, double weight) const;
-  /// The least of both over the margin's weights.
+  /// At the worst of the margin's weights.
   double most_asked_of_edge(int k) const;
   double least_help_at_end(int k) const;
 
@@ -37,7 +37,9 @@ struct WeakContact {
   std::array<double, 2> stretch;
 
  private:
-  const Vec2 gamma_, p_OCom_;
+  double asked_about(int k) const;
+
+  const StickContact stick_;
   const Margin margin_;
 };
 

@@ -143,9 +143,9 @@ std::optional<std::vector<Move>> search_plane(const SearchModel& search,
       best.offer(std::move(*near), kWorthTolerance);
     }
   }
-  const bool is_whole =
-      !has_points(search);  // pushes by points are polished to cheaper ones
-  const bool may_wind = !best.any() || (is_whole && best.cost() > kWorthWinding * bound);
+  // What points push in pieces, the polish may make cheaper than any winding push.
+  const bool is_dear = best.cost() > kWorthWinding * bound && !has_points(search);
+  const bool may_wind = !best.any() || is_dear;
   if (may_wind && !limits.improves() && !limits.reached()) {
     auto wound = search_wound(search, from, goal, goals, bound, limits, work);
     if (wound && !best.any()) return wound;

@@ -11,10 +11,15 @@
 
 #include "mechanics/sticking.h"
 #include "planner/pads/ring_pads.h"
+#include "planner/pads/run_law.h"
 #include "planner/pads/spread_pads.h"
+#include "planner/steering/chain.h"
 #include "planner/steering/goal.h"
+#include "planner/steering/steering.h"
+#include "primitives/uncertainty.h"
 #include "problems/random_pushes.h"
 #include "tests/planner/planner_cases.h"
+#include "tests/support/random.h"
 
 namespace prehensile {
 namespace {
@@ -48,6 +53,39 @@ RandomPush random_push_by_point(std::uint64_t seed, std::uint64_t index) {
   RandomPush made = random_push(seed, index);
   made.scene.pushers[0].feature = PointFeature{};
   return made;
+}
+
+/// The points of discs pull aside where rings do not, and leave what rings deny.
+TEST(ExactCheck, PushesOverDiscsSurviveTheMarginWithRingsToo) {
+  testing::Random random(3);
+  const Model model = prepare(testing::walled_square());
+  const SearchModel search = prepare_search(model, usual_margin(model));
+  int tried = 0, by_rings = 0;
+  for (int i = 0; i < 40'000; ++i) {
+    const FlatState from{random.in_box(0.04, 0.04), 0.3};
+    const Vec2 way = random.in_disc(0.03);
+    const int index = random.below(static_cast<int>(search.contacts.size()));
+    Leg leg;
+    Work work{.budget = testing::kNoBudget};
+    if (!make_leg({search}, index, {from.p_OF}, {from.p_OF + way}, work, leg)) continue;
+    // A little beyond the ends of what rings allow, where points may still stick.
+    const auto [lo, hi] = leg.kappas.intervals[0];
+    const double kappa = (random.chance(0.5) ? lo : hi) + random.in(-0.02, 0.02);
+    const double turn = kappa * leg.length / model.c;
+    const Grasp start = grasp_of(from, 0.0);
+    const Move move{index, from, {from.p_OF + way, from.theta + turn}};
+    const LinearPush push = push_of(search, move);
+    const Margin margin = search.margin;
+    const PushContact& contact = model.contacts[push.contact];
+    const double slack = push_slack(model, start, push, margin);
+    const double of_rings = ring_slack(model, contact, from.p_OF, push.e, push.travel,
+                                       push.turn, margin_of_laws(model, contact, margin));
+    EXPECT_LE(slack, of_rings + 1e-12) << i;
+    ++tried;
+    by_rings += slack == of_rings;
+  }
+  EXPECT_GT(tried, 2000);
+  EXPECT_GT(by_rings, 10);
 }
 
 /// Along the way of an object that turns about a point, the slack says what the

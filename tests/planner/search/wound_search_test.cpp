@@ -8,10 +8,13 @@
 #include "mechanics/sticking.h"
 #include "planner/chains/direct_push.h"
 #include "planner/chains/shorten.h"
+#include "planner/costs.h"
 #include "planner/planner.h"
 #include "planner/search/cheapen.h"
+#include "planner/search/plane_search.h"
 #include "planner/steering/chain.h"
 #include "planner/steering/goal.h"
+#include "planner/walks/walk_lattice.h"
 #include "primitives/uncertainty.h"
 #include "problems/published_regrasps.h"
 #include "tests/planner/planner_cases.h"
@@ -114,20 +117,23 @@ TEST(WoundSearch, EndsBesideTheGoalWhereThatIsAllThatOnePushMeets) {
 
 /// A search for cheaper plans does not end with one that winds the object up.
 TEST(WoundSearch, IsNoEndOfASearchForCheaperPlans) {
-  const auto share_of_cost = [](std::uint64_t index, double least_turned) {
-    const Model model =
-        prepare(random_among_walls(true, RegraspRange::kWide, true, 1, index));
-    PlanOptions options;
-    options.budget = 2'000'000;
-    const Plan plan = plan_regrasp(model, options);
-    EXPECT_TRUE(plan.usable()) << plan.message;
-    const double turned = plan.goal.X_HO.theta - plan.start.X_HO.theta;
-    EXPECT_GT(std::abs(turned), least_turned);
-    options.improve = true;
-    return plan_regrasp(model, options).cost / plan.cost;
+  const Scene scene = random_among_walls(true, RegraspRange::kWide, true, 1, 124);
+  const Model model = prepare(scene);
+  const SearchModel search = testing::search_over_ellipsoid(model, usual_margin(model));
+  PlanOptions options;
+  const auto moves_found = [&] {
+    Work work{.budget = 2'000'000};
+    WalkLattices lattices;
+    return search_plane(search, scene.start, *scene.goal, lattices, Limits(options, work),
+                        work);
   };
-  EXPECT_LT(share_of_cost(318, 2.0 * kTurn), 0.98);
-  EXPECT_LT(share_of_cost(124, 0.0), 0.8);
+  const auto first = moves_found();
+  ASSERT_TRUE(first);
+  EXPECT_GT(std::abs(first->back().to.theta - first->front().from.theta), 2.0 * kTurn);
+  options.improve = true;
+  const auto better = moves_found();
+  ASSERT_TRUE(better);
+  EXPECT_LT(cost_of(search, *better), 0.8 * cost_of(search, *first));
 }
 
 }  // namespace

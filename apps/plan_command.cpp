@@ -164,6 +164,13 @@ Command add_plan(CLI::App& app) {
                   "seconds between lines of progress, and before the first")
       ->check(in_range(0.0, 1e6))
       ->capture_default_str();
+  command
+      .add_option(
+          "--ease", options->plan.ease,
+          "share of its cost that a plan with a margin may cost more to slip less "
+          "easily beyond it; 0: the cheapest")
+      ->check(in_range(0.0, 1.0))
+      ->capture_default_str();
   command.add_flag("--no-polish", options->no_polish,
                    "keep the plan as the search found it");
   command.add_flag("--no-advice", options->no_advice,

@@ -9,6 +9,7 @@
 #include "planner/checks/exact_check.h"
 #include "planner/checks/meet_end.h"
 #include "planner/costs.h"
+#include "planner/finish/ease.h"
 #include "planner/finish/loosen_grip.h"
 #include "planner/finish/polish.h"
 #include "planner/finish/repair.h"
@@ -34,6 +35,16 @@ bool passes_check(const SearchModel& search, const PlanOptions& options, Work& w
     plan.instants = loosened.instants;
   }
   return check_exactly(model, options.transition, plan, &why);
+}
+
+/// Eases a plan that passes, if it passes then as well.
+void ease_as_it_passes(const SearchModel& search, const PlanOptions& options,
+                       const Limits& limits, Work& work, Plan& plan) {
+  Plan eased = plan;
+  if (!ease(search, options.ease, limits, work, eased)) return;
+  const bool passes = check_exactly(*search.model, options.transition, eased, nullptr);
+  plan.instants = eased.instants;
+  if (passes) plan = std::move(eased);
 }
 
 bool is_same_push(const PlannedPush& a, const PlannedPush& b) {
@@ -127,6 +138,7 @@ Finished finish(const SearchModel& search, const PlanOptions& options,
     const bool passed = passes_check(search, options, work, one, why);
     plan.instants = one.instants;
     if (passed) plan = std::move(one);
+    if (passed && options.polish) ease_as_it_passes(search, options, limits, work, plan);
     return passed;
   };
   const Plan found = plan;

@@ -15,7 +15,8 @@ struct Finished {
 
 /// Polishes a plan, loosens the grip where the scene lets it, and puts it to the exact
 /// check: the cheapest version first, as it was found last; then, if all fail, each of
-/// them repaired. `plan` becomes the first that passes.
+/// them repaired. `plan` becomes the first that passes, off the border of its margin for
+/// the share of its cost that the options allow.
 Finished finish(const SearchModel& search, const PlanOptions& options,
                 const Limits& limits, Work& work, Plan& plan);
 

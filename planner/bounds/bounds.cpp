@@ -209,7 +209,7 @@ constexpr double kProofRounding = 1e-7;
 class Prover {
  public:
   Prover(const Model& model, const Grasp& start, const Goal& goal, const Margin& margin)
-      : roll_(roll_cost(model, start, goal)), slabs_(model, margin.weightless) {
+      : roll_(roll_cost(model, start, goal)), slabs_(model, margin) {
     const GoalSet set(model, start, goal);
     question_.straight = set.distance();
     if (!set.fixes_place() || question_.straight <= 0.0) return;

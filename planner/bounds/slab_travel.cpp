@@ -22,7 +22,7 @@ constexpr double kRounding = 1e-7;  // [m] of the way between two places
 }  // namespace
 
 const LocalLaw& SlabTravel::law() {
-  if (!law_) law_.emplace(model_, weightless_);
+  if (!law_) law_.emplace(model_, margin_);
   return *law_;
 }
 

@@ -21,9 +21,8 @@ namespace prehensile {
 
 class SlabTravel {
  public:
-  /// `model` must outlive it. `weightless`: of pushes that stick without gravity as well.
-  SlabTravel(const Model& model, bool weightless)
-      : model_(model), weightless_(weightless) {}
+  /// Of plans that survive a margin. `model` must outlive it.
+  SlabTravel(const Model& model, const Margin& margin) : model_(model), margin_(margin) {}
 
   /// The law of single instants, made when it is first asked for.
   const LocalLaw& law();
@@ -53,7 +52,7 @@ class SlabTravel {
   void prepare_slabs();
 
   const Model& model_;
-  bool weightless_;
+  Margin margin_;
   std::optional<LocalLaw> law_;  // from the first question on
   bool has_slabs_ = false;
   std::array<Slabs, kWays> coarse_, fine_;

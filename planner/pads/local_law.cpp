@@ -7,6 +7,9 @@
 #include <limits>
 #include <numbers>
 
+#include "planner/pads/run_law.h"
+#include "planner/pads/weak_contact.h"
+
 namespace prehensile {
 namespace {
 
@@ -119,71 +122,62 @@ struct Advance {
   }
 };
 
-Row edge_of_cone(const PushContact& contact, const Vec2& gamma, double side,
-                 const DirectionSpan& directions) {
-  const Vec2 w = contact.mu * contact.n + side * contact.t;
-  return {w.norm() * directions.half_angle - w.dot(directions.middle), 0.0, w.norm(),
-          -w.dot(gamma)};
+/// Edge k of the friction cone, at the worst of the tilts.
+Row edge_of_cone(const LocalLaw::Demand& demand, int k, const DirectionSpan& directions) {
+  const Vec2& w = demand.w[k];
+  const double ahead =
+      least_turned(-w.dot(directions.middle), -cross(w, directions.middle), demand.tilt);
+  return {w.norm() * directions.half_angle + ahead, 0.0, w.norm(), -demand.asked[k]};
 }
 
-/// Moment about an end of the face over F c: side +1 about b, -1 about a.
-Row end_of_face(const Model& model, const Vec2& end, const Vec2& gamma, double side,
+/// Moment about end k of the face over F c, with the finger axis off its place across the
+/// motion.
+Row end_of_face(const LocalLaw::Demand& demand, int k, double c,
                 std::span<const Vec2> places, const DirectionSpan& directions) {
-  Row row{-INFINITY, side, 0.0, -side * cross(model.p_OCom - end, gamma) / model.c};
+  const double side = k == 0 ? 1.0 : -1.0;
+  Row row{-INFINITY, side, 0.0, demand.help[k] / c};
   for (const Vec2& place : places) {
-    const Vec2 lever = (place - end) / model.c;
+    const Vec2 lever = (place - demand.end[k]) / c;
     row.along = std::max(row.along, lever.norm() * directions.half_angle -
                                         side * cross(lever, directions.middle));
     row.reach = std::max(row.reach, lever.norm());
   }
+  row.along -= demand.grasp / c;
   return row;
 }
 
-Advance advance_of(const PushContact& contact, const Vec2& end, double c,
+Advance advance_of(const LocalLaw::Demand& demand, int k, double c,
                    std::span<const Vec2> places, const DirectionSpan& directions) {
-  Advance advance{directions.half_angle - contact.n.dot(directions.middle), INFINITY,
+  Advance advance{directions.half_angle - demand.n.dot(directions.middle), INFINITY,
                   -INFINITY};
   for (const Vec2& place : places) {
-    const double turning = contact.n.dot(perp(end - place)) / c;
+    const double turning = demand.n.dot(perp(demand.face_end[k] - place)) / c;
     advance.turning_low = std::min(advance.turning_low, turning);
     advance.turning_high = std::max(advance.turning_high, turning);
   }
   return advance;
 }
 
-/// What a contact asks of the friction of the pads.
+/// Rows at these places and directions.
 class Demands {
  public:
-  Demands(const Model& model, const PushContact& contact, bool weightless,
-          std::span<const Vec2> places, const DirectionSpan& directions)
-      : advances_{advance_of(contact, contact.a, model.c, places, directions),
-                  advance_of(contact, contact.b, model.c, places, directions)} {
-    const Vec2 gamma = model.mass / model.F * contact.g_O;
-    add_rows(model, contact, gamma, places, directions);
-    // Without gravity the object turns about a point as it does not with it.
-    if (weightless && !contact.is_point) {
-      add_rows(model, contact, Vec2::Zero(), places, directions);
-    }
-  }
+  Demands(const LocalLaw::Demand& demand, double c, std::span<const Vec2> places,
+          const DirectionSpan& directions)
+      : rows_{edge_of_cone(demand, 0, directions), edge_of_cone(demand, 1, directions),
+              end_of_face(demand, 0, c, places, directions),
+              end_of_face(demand, 1, c, places, directions)},
+        advances_{advance_of(demand, 1, c, places, directions),
+                  advance_of(demand, 0, c, places, directions)} {}
 
   bool may_be_met(const FrictionBox& box) const {
-    return std::all_of(rows_.begin(), rows_.begin() + count_,
-                       [&](const Row& row) { return row.may_hold(box); }) &&
-           std::any_of(advances_.begin(), advances_.end(),
-                       [&](const Advance& end) { return end.may_hold(box); });
+    return std::ranges::all_of(rows_,
+                               [&](const Row& row) { return row.may_hold(box); }) &&
+           std::ranges::any_of(advances_,
+                               [&](const Advance& end) { return end.may_hold(box); });
   }
 
  private:
-  void add_rows(const Model& model, const PushContact& contact, const Vec2& gamma,
-                std::span<const Vec2> places, const DirectionSpan& directions) {
-    rows_[count_++] = edge_of_cone(contact, gamma, 1.0, directions);
-    rows_[count_++] = edge_of_cone(contact, gamma, -1.0, directions);
-    rows_[count_++] = end_of_face(model, contact.b, gamma, 1.0, places, directions);
-    rows_[count_++] = end_of_face(model, contact.a, gamma, -1.0, places, directions);
-  }
-
-  std::array<Row, 8> rows_;
-  int count_ = 0;
+  std::array<Row, 4> rows_;
   std::array<Advance, 2> advances_;
 };
 
@@ -258,41 +252,61 @@ LeastTravel least_in_tree(const std::vector<FrictionBox>& tree, const Demands& d
   return least;
 }
 
-}  // namespace
-
-LocalLaw::LocalLaw(const Model& model, bool weightless)
-    : LocalLaw(model, weightless, boxes_of(model)) {}
-
-LocalLaw::LocalLaw(const Model& model, bool weightless,
-                   const std::vector<FrictionBox>& boxes)
-    : model_(model), weightless_(weightless), tree_(tree_over(boxes)) {}
-
-LocalLaw LocalLaw::of_whole_discs(const Model& model) {
-  if (!has_planar_pushes(model)) return {model, false, {}};
-  return {model, false, boxes_of(section_of_whole_discs(model, kRingCellsOfLaw))};
+LocalLaw::Demand demand_of(const Model& model, const PushContact& pushed,
+                           const Margin& of_scene) {
+  const Margin margin = margin_of_laws(model, pushed, of_scene);
+  const WeakContact contact(face_contact(model, pushed), margin, Vec2::Zero());
+  LocalLaw::Demand demand{.n = contact.n,
+                          .w = contact.w,
+                          .end = contact.end,
+                          .face_end = {pushed.b, pushed.a},
+                          .tilt = margin.tilt,
+                          .grasp = margin.grasp};
+  for (const int k : {0, 1}) {
+    demand.asked[k] = contact.most_asked_of_edge(k);
+    demand.help[k] = contact.least_help_at_end(k);
+  }
+  return demand;
 }
 
-bool LocalLaw::is_in_cone(const PushContact& contact,
-                          const DirectionSpan& directions) const noexcept {
-  const Vec2 gamma = model_.mass / model_.F * contact.g_O;
-  return edge_of_cone(contact, gamma, 1.0, directions).may_hold(tree_[1]) &&
-         edge_of_cone(contact, gamma, -1.0, directions).may_hold(tree_[1]);
+}  // namespace
+
+LocalLaw::LocalLaw(const Model& model, const Margin& margin)
+    : LocalLaw(model, margin, boxes_of(model)) {}
+
+LocalLaw::LocalLaw(const Model& model, const Margin& margin,
+                   const std::vector<FrictionBox>& boxes)
+    : c_(model.c), tree_(tree_over(boxes)) {
+  if (tree_.empty()) return;
+  for (const PushContact& contact : model.contacts) {
+    demands_.push_back(demand_of(model, contact, margin));
+  }
+}
+
+LocalLaw LocalLaw::of_whole_discs(const Model& model) {
+  const Margin none = Margin::none();
+  if (!has_planar_pushes(model)) return {model, none, {}};
+  return {model, none, boxes_of(section_of_whole_discs(model, kRingCellsOfLaw))};
+}
+
+bool LocalLaw::is_in_cone(int contact, const DirectionSpan& directions) const noexcept {
+  const LocalLaw::Demand& demand = demands_[contact];
+  return edge_of_cone(demand, 0, directions).may_hold(tree_[1]) &&
+         edge_of_cone(demand, 1, directions).may_hold(tree_[1]);
 }
 
 bool LocalLaw::may_move(int contact, const PlaceSpan& places,
                         const DirectionSpan& directions) const noexcept {
-  const PushContact& pushed = model_.contacts[contact];
   const std::array ends = {places.a, places.b};
-  return is_known() && is_in_cone(pushed, directions) &&
-         may_be_met_in(tree_, {model_, pushed, weightless_, ends, directions});
+  return is_known() && is_in_cone(contact, directions) &&
+         may_be_met_in(tree_, {demands_[contact], c_, ends, directions});
 }
 
 LeastTravel LocalLaw::least_travel(int contact, std::span<const Vec2> corners,
                                    const DirectionSpan& directions, double share,
                                    const LeastTravel& before) const noexcept {
-  const PushContact& pushed = model_.contacts[contact];
-  if (!is_known() || !is_in_cone(pushed, directions)) return {.cost = INFINITY};
-  const Demands demands(model_, pushed, weightless_, corners, directions);
+  if (!is_known() || !is_in_cone(contact, directions)) return {.cost = INFINITY};
+  const Demands demands(demands_[contact], c_, corners, directions);
   if (before.box > 0 && demands.may_be_met(tree_[before.box])) return before;
   return least_in_tree(tree_, demands,
                        [share](const FrictionBox& box) { return least_in(box, share); });
@@ -300,9 +314,8 @@ LeastTravel LocalLaw::least_travel(int contact, std::span<const Vec2> corners,
 
 double LocalLaw::most_turn(int contact, std::span<const Vec2> corners,
                            const DirectionSpan& directions, double sense) const noexcept {
-  const PushContact& pushed = model_.contacts[contact];
-  if (!is_known() || !is_in_cone(pushed, directions)) return -INFINITY;
-  return -least_in_tree(tree_, {model_, pushed, weightless_, corners, directions},
+  if (!is_known() || !is_in_cone(contact, directions)) return -INFINITY;
+  return -least_in_tree(tree_, {demands_[contact], c_, corners, directions},
                         [sense](const FrictionBox& box) { return -most_in(box, sense); })
               .cost;
 }

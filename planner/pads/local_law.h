@@ -7,6 +7,7 @@
 /// no friction in the boxes allows.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -36,10 +37,23 @@ struct LeastTravel {
 
 class LocalLaw {
  public:
+  /// What a contact asks of the friction of the pads, at the worst of a margin
+  /// (weak_contact.h).
+  struct Demand {
+    Vec2 n;
+    std::array<Vec2, 2> w;         ///< edges of the dual cone
+    std::array<double, 2> asked;   ///< by gravity, of w.f over F
+    std::array<Vec2, 2> end;       ///< of the face, b and a, moved inwards
+    std::array<double, 2> help;    ///< [m] moment of gravity about it over F
+    std::array<Vec2, 2> face_end;  ///< not moved
+    double tilt = 0.0;             ///< [rad] of the motion in the cone
+    double grasp = 0.0;            ///< [m] of the finger axis off its place
+  };
+
   /// Known of pads that are whole wherever they are (pad_section.h), and of soft points.
-  /// `model` must outlive the law. `weightless`: of pushes that stick without gravity as
-  /// well (Margin::weightless).
-  explicit LocalLaw(const Model& model, bool weightless = false);
+  /// Of pushes that survive a margin, of which it knows what it makes of a contact: not
+  /// the tilt about the ends of its face, nor other torque radii.
+  explicit LocalLaw(const Model& model, const Margin& margin = Margin::none());
 
   /// Of discs that the face clips elsewhere (has_clipped_discs), at places where they are
   /// whole.
@@ -66,14 +80,14 @@ class LocalLaw {
                    const DirectionSpan& directions, double sense) const noexcept;
 
  private:
-  LocalLaw(const Model& model, bool weightless, const std::vector<FrictionBox>& boxes);
+  LocalLaw(const Model& model, const Margin& margin,
+           const std::vector<FrictionBox>& boxes);
 
   /// Whether any friction of the pads is within the friction cone.
-  bool is_in_cone(const PushContact& contact,
-                  const DirectionSpan& directions) const noexcept;
+  bool is_in_cone(int contact, const DirectionSpan& directions) const noexcept;
 
-  const Model& model_;
-  bool weightless_;
+  double c_;
+  std::vector<Demand> demands_;  // as in Model::contacts
   /// The boxes, by the sine of phi, are the leaves; node i is the union of 2 i and
   /// 2 i + 1, and node 1 that of all.
   std::vector<FrictionBox> tree_;

@@ -37,10 +37,10 @@ void attack(int scenes, int pushes, std::uint64_t seed) {
   int walks = 0, sharp = 0;
   for (int i = 0; i < scenes; ++i) {
     const Model model = prepare(random_law_scene(random));
-    Margin margin = Margin::none();
-    margin.weightless = random.chance(0.3);
+    const Margin margin =
+        random.chance(0.5) ? testing::random_margin(random) : Margin::none();
     const SearchModel search = prepare_search(model, margin);
-    const LocalLaw law(model, margin.weightless);
+    const LocalLaw law(model, margin);
     ASSERT_TRUE(law.is_known());
     Work work{.budget = testing::kNoBudget};
     FlatState start = flat_state(model.scene.start);

@@ -32,10 +32,10 @@ void attack(int scenes, int pushes, std::uint64_t seed) {
   for (int i = 0; i < scenes; ++i) {
     const Scene scene = random_law_scene(random);
     const Model model = prepare(scene);
-    Margin margin = Margin::none();
-    margin.weightless = random.chance(0.3);
+    const Margin margin =
+        random.chance(0.5) ? testing::random_margin(random) : Margin::none();
     const SearchModel search = prepare_search(model, margin);
-    SlabTravel slabs(model, margin.weightless);
+    SlabTravel slabs(model, margin);
     Work work{.budget = testing::kNoBudget};
     FlatState start = flat_state(scene.start);
     start.p_OF = {random.in(-0.045, 0.045), random.in(-0.014, 0.014)};
@@ -70,7 +70,7 @@ TEST(SlabTravel, FullNoWalkOfStickingPushesIsShorter) { attack(2000, 100, 2); }
 /// millimetre; out of it the wall at the bar pushes straight.
 TEST(SlabTravel, IsLongIntoAStemAndShortOutOfIt) {
   const Model model = prepare(weightless_tee());
-  SlabTravel slabs(model, false);
+  SlabTravel slabs(model, Margin::none());
   const Vec2 mouth(-0.02, 0.0), deep(0.045, 0.0);
   const double inwards = slabs.least(mouth, {.centre = deep}, -10.0, 10.0);
   const double outwards = slabs.least(deep, {.centre = mouth}, -10.0, 10.0);
@@ -84,7 +84,7 @@ TEST(SlabTravel, IsLongIntoAStemAndShortOutOfIt) {
 /// A goal that may be nearer, or turn by other angles too, is no farther.
 TEST(SlabTravel, LargerGoalsAreNoFarther) {
   const Model model = prepare(weightless_tee());
-  SlabTravel slabs(model, false);
+  SlabTravel slabs(model, Margin::none());
   Random random(4);
   for (int i = 0; i < 30; ++i) {
     const Vec2 from(random.in(-0.05, 0.0), random.in(-0.015, 0.015));
@@ -101,7 +101,7 @@ TEST(SlabTravel, SaysNothingWhereTheFrictionIsNotKnown) {
   Scene scene = published_tee(0);
   scene.overhang = Overhang::kClip;
   const Model model = prepare(scene);
-  SlabTravel slabs(model, false);
+  SlabTravel slabs(model, Margin::none());
   EXPECT_EQ(slabs.least({-0.02, 0.0}, {.centre = {0.045, 0.0}}, 0.0, 0.0), 0.0);
 }
 

@@ -12,10 +12,13 @@ namespace prehensile {
 namespace {
 
 using testing::advance_of;
+using testing::PlannedInstant;
 using testing::Random;
 using testing::random_kappa;
 using testing::random_law_scene;
+using testing::random_margin;
 using testing::random_shape_scene;
+using testing::robust_slack_of_pads;
 using testing::slack_of_pads;
 
 /// Places around p, of some length in any direction.
@@ -44,8 +47,18 @@ struct Tally {
   int sticking = 0, denied_nearby = 0, sharp = 0, bounded = 0;
 };
 
-void check_instant(const Model& model, const LocalLaw& law, Random& random,
-                   Tally& tally) {
+/// Whether the instant sticks with the pads themselves, over the margin.
+bool sticks(const Model& model, const PushContact& contact, const PlanarPose& X_HO,
+            const Vec2& e, double kappa, const Margin& margin, Random& random) {
+  if (!(slack_of_pads(model, contact, X_HO, e, kappa) >= 0.0)) return false;
+  if (margin.is_none()) return true;
+  const PlannedInstant at{.begin = finger_in_object(X_HO),
+                          .travelled = random.in(0.0, 0.02)};
+  return robust_slack_of_pads(model, contact, X_HO, e, kappa, at, margin) >= 0.0;
+}
+
+void check_instant(const Model& model, const LocalLaw& law, const Margin& margin,
+                   Random& random, Tally& tally) {
   const int j = random.below(static_cast<int>(model.contacts.size()));
   const PushContact& contact = model.contacts[j];
   const double lean = std::atan(contact.mu) + random.in(-0.3, 0.3);
@@ -56,7 +69,7 @@ void check_instant(const Model& model, const LocalLaw& law, Random& random,
   const Vec2 p_OF = random.in_box(0.05, 0.05);
   const PlanarPose X_HO = pose_from_finger(p_OF, random.in(-kPi, kPi));
   if (advance_of(contact, p_OF, e, kappa / model.c) < 0.0) return;
-  if (!(slack_of_pads(model, contact, X_HO, e, kappa) >= 0.0)) return;
+  if (!sticks(model, contact, X_HO, e, kappa, margin, random)) return;
   ++tally.sticking;
   EXPECT_TRUE(law.may_move(j, {p_OF, p_OF}, {-e, 0.0})) << kappa;
   EXPECT_TRUE(law.may_move(j, around(p_OF, random), around_direction(-e, random)))
@@ -89,9 +102,10 @@ void check_instants(int scenes, int instants, std::uint64_t seed,
   for (int i = 0; i < scenes; ++i) {
     const Scene scene = random_scene(random);
     const Model model = prepare(scene, {.points_per_pad = random.chance(0.7) ? 16 : 64});
-    const LocalLaw law(model);
+    const Margin margin = random.chance(0.5) ? random_margin(random) : Margin::none();
+    const LocalLaw law(model, margin);
     ASSERT_TRUE(law.is_known());
-    for (int k = 0; k < instants; ++k) check_instant(model, law, random, tally);
+    for (int k = 0; k < instants; ++k) check_instant(model, law, margin, random, tally);
   }
   EXPECT_GT(tally.sticking, scenes * instants / 20);
   EXPECT_GT(tally.denied_nearby, tally.sticking / one_of);

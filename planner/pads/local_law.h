@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mechanics/model.h"
+#include "mechanics/sticking.h"
 #include "planner/pads/pad_section.h"
 
 namespace prehensile {

@@ -11,13 +11,20 @@ namespace {
 /// Directions in which the finger axis may leave (or reach) a place, as unit e of the
 /// object's motion.
 struct Directions {
+  static constexpr int kCapacity = 12;
   int count = 0;
-  std::array<Vec2, 5> e;
+  std::array<Vec2, kCapacity> e;
+  void add(const Vec2& direction) {
+    if (count < kCapacity) e[count++] = direction;
+  }
 };
 
 /// Share of the friction angle that counts as the edge: on the edge itself rounding
 /// decides.
 constexpr double kNearEdge = 0.98;
+
+/// Of a way round a corner, over the straight one.
+constexpr double kDetour = 1.05;
 
 Directions promising_directions(const SearchModel& search, int contact,
                                 const Vec2& p_OF) {
@@ -26,8 +33,7 @@ Directions promising_directions(const SearchModel& search, int contact,
       kNearEdge * std::atan(stick.mu * std::max(0.0, 1.0 - search.margin.friction));
   Directions directions;
   const auto add_angle = [&](double angle) {
-    directions.e[directions.count++] =
-        std::cos(angle) * stick.n + std::sin(angle) * stick.t;
+    directions.add(std::cos(angle) * stick.n + std::sin(angle) * stick.t);
   };
   add_angle(0.0);
   add_angle(edge);
@@ -36,6 +42,29 @@ Directions promising_directions(const SearchModel& search, int contact,
     const Vec2 away = p_OF - end;
     const double angle = std::atan2(away.dot(stick.t), away.dot(stick.n));
     if (std::abs(angle) < edge) add_angle(angle);
+  }
+  return directions;
+}
+
+/// Directions from a place past the reflex corners of the object, so near to each as the
+/// margin lets a way come that has been so long [m] when it gets there.
+template <class WayTo>
+Directions past_corners(const SearchModel& search, const Vec2& p_OF,
+                        const WayTo& way_to) {
+  const std::vector<Vec2>& outline = search.model->pad_face;
+  const std::size_t n = outline.size();
+  Directions directions;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2& corner = outline[i];
+    const Vec2 to_last = (outline[(i + n - 1) % n] - corner).normalized();
+    const Vec2 to_next = (outline[(i + 1) % n] - corner).normalized();
+    if (cross(to_last, to_next) <= 0.0) continue;
+    const Vec2 d = corner - p_OF;
+    const double room = carried(search.margin, way_to(corner)).grasp;
+    if (d.norm() <= room || d.norm() < kShortestLeg) continue;
+    const double off = std::asin(room / d.norm());
+    const bool is_left = cross(d, to_last + to_next) < 0.0;  // of it the object lies
+    directions.add(rotated(is_left ? off : -off, d.normalized()));
   }
   return directions;
 }
@@ -106,11 +135,21 @@ void add_crossings(const Steering& steering, const FlatState& start,
     const double length = (start.p_OF - p_OF).norm() + (goal - p_OF).norm();
     return straight_cost(*search.model, placements, length, turn) < best.worst_cost();
   };
+  Directions round_from, round_to;
+  if (!segment_on_object(*search.model, start.p_OF, goal)) {
+    const auto way_to = [&](const Vec2& corner) {
+      return kDetour * (corner - start.p_OF).norm();
+    };
+    round_from = past_corners(search, start.p_OF, way_to);
+    round_to = past_corners(search, goal, way_to);
+  }
   Chain chain;
   for (int i = 0; i < contacts; ++i) {
-    const Directions from = promising_directions(search, i, start.p_OF);
+    Directions from = promising_directions(search, i, start.p_OF);
+    for (int k = 0; k < round_from.count; ++k) from.add(-round_from.e[k]);
     for (int j = 0; j < contacts && !work.spent(); ++j) {
-      const Directions to = promising_directions(search, j, goal);
+      Directions to = promising_directions(search, j, goal);
+      for (int k = 0; k < round_to.count; ++k) to.add(round_to.e[k]);
       for (int k = 0; k < from.count * to.count; ++k) {
         Vec2 p_OF;
         Leg first, second;

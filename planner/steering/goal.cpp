@@ -21,7 +21,7 @@ constexpr int kCoarseSteps = 7;
 constexpr double kPlaneStep = 0.15;  // two free positions
 constexpr int kPlaneSteps = 5;
 /// Within tolerances.
-constexpr double kUsed = 0.9;
+constexpr double kUsed = 0.98;
 constexpr int kTurns = 7;
 constexpr int kWindings = 3;
 constexpr int kDirections = 8;

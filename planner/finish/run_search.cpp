@@ -29,9 +29,8 @@ constexpr std::array<Inwards, 3> kInwardsOfPoints = {
 /// and where that does not help farther from them. Of lines: points are aimed anew.
 constexpr double kInside = 2.4e-4;
 constexpr double kFartherIn = 2e-3;
-constexpr double kPerPush = 2e-3;  // of J, that one push less is worth
-constexpr double kLongest = 4.0;   // travel over L of plans looked for
-constexpr double kUsedTolerance = 0.9;
+constexpr double kPerPush = 2e-3;        // of J, that one push less is worth
+constexpr double kLongest = 4.0;         // travel over L of plans looked for
 constexpr std::int64_t kProgram = 2000;  // work of one convex program, in stick tests
 
 static_assert(kRunPieces <= Chain::kMaxLegs);

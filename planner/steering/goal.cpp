@@ -21,7 +21,6 @@ constexpr int kCoarseSteps = 7;
 constexpr double kPlaneStep = 0.15;  // two free positions
 constexpr int kPlaneSteps = 5;
 /// Within tolerances.
-constexpr double kUsed = 0.98;
 constexpr int kTurns = 7;
 constexpr int kWindings = 3;
 constexpr int kDirections = 8;
@@ -84,12 +83,12 @@ class PlaceCollector {
     const Vec2 place{*goal_.x, *goal_.y};
     const bool shared = goal_.test == GoalTest::kWeightedSum;
     const double most =
-        kUsed * (shared ? goal_.position_tolerance / goal_.characteristic_length
-                        : goal_.angle_tolerance);
+        kUsedTolerance * (shared ? goal_.position_tolerance / goal_.characteristic_length
+                                 : goal_.angle_tolerance);
     for (int i = 0; i < kTurns; ++i) {
       const double turn = most * offset(i, 2.0 / (kTurns - 1));
       const double used = shared ? goal_.characteristic_length * std::abs(turn) : 0.0;
-      const double off = kUsed * goal_.position_tolerance - used;
+      const double off = kUsedTolerance * goal_.position_tolerance - used;
       add(middle + turn, place, windings, first);
       if (off <= 0.0) continue;
       for (int k = 0; k < kDirections; ++k) {

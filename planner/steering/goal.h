@@ -64,9 +64,12 @@ GoalPlaces wound_places(const Model& model, const Goal& goal,
 /// of the best one that does not.
 inline constexpr double kWorthTolerance = 0.9;
 
-/// Members of a goal that fixes place and angle but for its tolerances, at up to 0.9 of
-/// these, in the corners of the square, too, where each coordinate has its own; nearest
-/// to the start first, without whole turns.
+/// Such a plan uses up to this share of the tolerances.
+inline constexpr double kUsedTolerance = 0.98;
+
+/// Members of a goal that fixes place and angle but for its tolerances, in the corners of
+/// the square, too, where each coordinate has its own; nearest to the start first,
+/// without whole turns.
 GoalPlaces tolerated_places(const Model& model, const Goal& goal,
                             const FlatState& start) noexcept;
 

@@ -116,7 +116,7 @@ double ring_slack(const Model& model, const PushContact& contact, const Vec2& p_
   };
   const PadDrag nominal = friction_of(1.0);
   const double slack = slack_of_friction(model, contact, p_OF, nominal);
-  if (margin.is_none() || !(slack >= 0.0)) return slack;
+  if (margin.is_none() || !(slack >= -kStickTolerance)) return slack;
   const double r = margin.torque_radius;
   const std::array frictions = {nominal, friction_of(std::max(0.0, 1.0 - r)),
                                 friction_of(1.0 + r)};

@@ -144,5 +144,30 @@ TEST(RingPads, SlackOverAMarginIsNoMoreThanThatOfItsMembers) {
   EXPECT_GT(close, sticking);
 }
 
+/// Rounding puts a motion along the edge of the friction cone to either side of it: where
+/// the friction may be less, neither sticks.
+TEST(RingPads, OnTheNominalEdgeTheMarginDecides) {
+  Random random(6);
+  Margin margin = Margin::none();
+  margin.friction = 0.05;
+  int inside = 0, outside = 0;
+  for (int i = 0; i < 400; ++i) {
+    Scene scene = published_square(0);
+    scene.g_W.setZero();
+    scene.pushers[0].friction = random.in(0.2, 0.7);
+    const Model model = prepare(scene);
+    const PushContact& contact = model.contacts[0];
+    const double lean = std::atan(contact.mu);
+    const Vec2 e = rotated(random.chance(0.5) ? lean : -lean, contact.n);
+    const double nominal =
+        ring_slack(model, contact, Vec2::Zero(), e, 1e-3, 0.0, Margin::none());
+    EXPECT_NEAR(nominal, 0.0, 1e-12);
+    (nominal >= 0.0 ? inside : outside) += 1;
+    EXPECT_LT(ring_slack(model, contact, Vec2::Zero(), e, 1e-3, 0.0, margin), -1e-3);
+  }
+  EXPECT_GT(inside, 20);
+  EXPECT_GT(outside, 20);
+}
+
 }  // namespace
 }  // namespace prehensile

@@ -118,7 +118,7 @@ class Look {
 
   /// What it cannot exceed, by motions that stick on the straight way; infinity if none
   /// of those that are looked at do. Where that way leaves the object the bound may be
-  /// more, so that a look may be left out that would say more; of measured sets none did.
+  /// more, so that a look may be left out that would say more.
   double most_travel(const Fineness& fineness) const {
     const double width = (end_ - begin_) / fineness.slabs;
     double travel = travel_of_turn();

@@ -16,7 +16,9 @@ namespace prehensile {
 
 /// A bound on the travel of every run from the start to the goal [m], at most `cap`; 0
 /// where the law is not known. `run`: its laws are not asked. `known` [m]: a bound that
-/// there is already; less is not looked for. Some milliseconds, up to 15. Allocates.
+/// there is already; less is not looked for, and looks follow those before them, so that
+/// now and then up to a tenth is missed that would be more. Some milliseconds, up to 15.
+/// Allocates.
 double travel_across_slabs(const LocalLaw& law, const RunQuestion& run,
                            double known = 0.0);
 

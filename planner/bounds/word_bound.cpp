@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "planner/bounds/corner_bars.h"
 #include "planner/bounds/portals.h"
 #include "planner/bounds/run_slabs.h"
 #include "planner/bounds/slab_travel.h"
@@ -166,6 +168,7 @@ class SingleRuns {
         target_(target),
         nodes_(nodes),
         asks_slabs_(question.slabs && !visit),
+        barred_(scene.laws->contacts.size()),
         others_(scene, target, nodes, visit) {}
 
   /// `least`: a bound that is known, of slabs, too, if they were `crossed`.
@@ -268,11 +271,25 @@ class SingleRuns {
   }
 
   /// All inequalities of an instant together, which the program knows one by one.
-  void bound_by_slabs(Run& run) const {
+  void bound_by_slabs(Run& run) {
     run.crossed_slabs = true;
+    if (is_barred(run.contact)) {
+      run.bound = target_;
+      return;
+    }
     const double travel = travel_across_slabs(question_.slabs->law(), question_of(run),
                                               (run.bound - 1.0) * scene_.L);
     run.bound = std::max(run.bound, 1.0 + travel / scene_.L);
+  }
+
+  /// From all goals at once: their places are the same after every whole turn.
+  bool is_barred(int contact) {
+    std::optional<bool>& barred = barred_[contact];
+    if (!barred) {
+      barred = prehensile::is_barred(question_.slabs->law(), contact, scene_.outline,
+                                     question_.p_OF, goal_arcs(question_));
+    }
+    return *barred;
   }
 
   const WordScene& scene_;
@@ -281,6 +298,7 @@ class SingleRuns {
   std::int64_t& nodes_;
   bool asks_slabs_;  // not while plans are looked for among the nodes
   std::vector<Run> heap_;
+  std::vector<std::optional<bool>> barred_;  // by contact, once it has been asked
   OpenNodes others_;
 };
 

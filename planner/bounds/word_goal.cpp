@@ -8,6 +8,7 @@
 namespace prehensile {
 namespace {
 
+constexpr double kShortArc = 0.03;   // [rad]
 constexpr double kWidestTurn = 0.5;  // [rad] of a first goal piece
 
 /// Greatest distance of the goal's place from the nominal one at these turns [m].
@@ -63,6 +64,19 @@ GoalArc goal_arc(const WordQuestion& question, double turn_low, double turn_high
     arc.slope[i] = side * goal.slack_per_turn * half;
   }
   return arc;
+}
+
+std::vector<GoalArc> goal_arcs(const WordQuestion& question) {
+  const WordGoal& goal = question.goal;
+  const double low = goal.any_turn ? -kPi : goal.turn_low - question.theta;
+  const double high = goal.any_turn ? kPi : goal.turn_high - question.theta;
+  const int count = 1 + static_cast<int>(std::min(2.0 * kPi, high - low) / kShortArc);
+  std::vector<GoalArc> arcs;
+  for (int i = 0; i < count; ++i) {
+    arcs.push_back(goal_arc(question, low + (high - low) * i / count,
+                            low + (high - low) * (i + 1) / count));
+  }
+  return arcs;
 }
 
 std::vector<TurnPiece> goal_pieces(const WordScene& scene, const WordQuestion& question,

@@ -36,6 +36,9 @@ void set_goal(const WordQuestion& question, double turn_low, double turn_high,
 /// The goal's places for these turns, as a run sees them.
 GoalArc goal_arc(const WordQuestion& question, double turn_low, double turn_high);
 
+/// All of the goal's places, whatever the winding, in short arcs.
+std::vector<GoalArc> goal_arcs(const WordQuestion& question);
+
 /// Ends of the pieces of every winding of the goal whose turn alone costs no more than
 /// `travel` [m].
 struct TurnPiece {

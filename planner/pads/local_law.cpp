@@ -97,13 +97,16 @@ double most(double factor, double low, double high) {
 }
 
 /// along x friction along the motion + moment x moment of the pads + reach x friction
-/// across + constant >= 0, the factors being the greatest over places and directions.
+/// across + constant >= 0, the factors being the greatest over places and directions; and
+/// `along_low` the least, for pads that are not alike on both sides of their middle,
+/// which may pull along the motion where they turn fast.
 struct Row {
-  double along = 0.0, moment = 0.0, reach = 0.0, constant = 0.0;
+  double along = 0.0, moment = 0.0, reach = 0.0, constant = 0.0, along_low = 0.0;
 
   bool may_hold(const FrictionBox& box) const {
-    return most(along, box.along_low, box.along_high) +
-               most(moment, box.moment_low, box.moment_high) + reach * box.across +
+    double friction = most(along, box.along_low, box.along_high);
+    if (box.along_low < 0.0) friction = std::max(friction, along_low * box.along_low);
+    return friction + most(moment, box.moment_low, box.moment_high) + reach * box.across +
                constant >=
            -kRounding;
   }
@@ -127,7 +130,9 @@ Row edge_of_cone(const LocalLaw::Demand& demand, int k, const DirectionSpan& dir
   const Vec2& w = demand.w[k];
   const double ahead =
       least_turned(-w.dot(directions.middle), -cross(w, directions.middle), demand.tilt);
-  return {w.norm() * directions.half_angle + ahead, 0.0, w.norm(), -demand.asked[k]};
+  // By the tilt, least_turned changes a little faster than a scalar product.
+  const double most = w.norm() * std::hypot(1.0, demand.tilt) * directions.half_angle;
+  return {most + ahead, 0.0, w.norm(), -demand.asked[k], ahead - most};
 }
 
 /// Moment about end k of the face over F c, with the finger axis off its place across the
@@ -135,14 +140,17 @@ Row edge_of_cone(const LocalLaw::Demand& demand, int k, const DirectionSpan& dir
 Row end_of_face(const LocalLaw::Demand& demand, int k, double c,
                 std::span<const Vec2> places, const DirectionSpan& directions) {
   const double side = k == 0 ? 1.0 : -1.0;
-  Row row{-INFINITY, side, 0.0, demand.help[k] / c};
+  Row row{-INFINITY, side, 0.0, demand.help[k] / c, INFINITY};
   for (const Vec2& place : places) {
     const Vec2 lever = (place - demand.end[k]) / c;
-    row.along = std::max(row.along, lever.norm() * directions.half_angle -
-                                        side * cross(lever, directions.middle));
+    const double off = lever.norm() * directions.half_angle;
+    const double along = -side * cross(lever, directions.middle);
+    row.along = std::max(row.along, along + off);
+    row.along_low = std::min(row.along_low, along - off);
     row.reach = std::max(row.reach, lever.norm());
   }
   row.along -= demand.grasp / c;
+  row.along_low -= demand.grasp / c;
   return row;
 }
 

@@ -7,9 +7,11 @@
 #include <optional>
 
 #include "mechanics/sticking.h"
+#include "planner/checks/exact_check.h"
 #include "planner/pads/ring_pads.h"
 #include "planner/pads/run_law.h"
 #include "planner/pads/spread_pads.h"
+#include "planner/steering/goal.h"
 #include "planner/steering/steering.h"
 #include "problems/pad_shapes.h"
 #include "problems/published_regrasps.h"
@@ -129,6 +131,13 @@ inline double advance_of(const PushContact& contact, const Vec2& p_OF, const Vec
   return std::max(rate(contact.a + inwards), rate(contact.b - inwards)) - n +
          least_turned(n, cross(contact.n, e), margin.tilt) -
          margin.grasp * std::abs(omega);
+}
+
+/// Whether a move sticks as plans are checked, after the finger axis has `travelled` [m].
+inline bool sticks_as_checked(const SearchModel& search, const Move& move,
+                              const Margin& margin, double travelled) {
+  return push_slack(*search.model, grasp_of(move.from, 0.0), push_of(search, move),
+                    carried(margin, travelled)) >= -kStickTolerance;
 }
 
 /// A random move by a contact that sticks, if one is hit: most of them along the edges of

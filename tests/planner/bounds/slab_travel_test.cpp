@@ -40,11 +40,13 @@ void attack(int scenes, int pushes, std::uint64_t seed) {
     FlatState start = flat_state(scene.start);
     start.p_OF = {random.in(-0.045, 0.045), random.in(-0.014, 0.014)};
     FlatState at = start;
-    double travel = 0.0;
+    double travel = 0.0, travelled = 0.0;
     for (int k = 0; k < pushes; ++k) {
       const int contact = random.below(static_cast<int>(search.contacts.size()));
       const auto move = random_sticking_move(search, contact, at, random, work);
-      if (!move) continue;
+      if (!move || !testing::sticks_as_checked(search, *move, margin, travelled))
+        continue;
+      travelled += (move->to.p_OF - at.p_OF).norm();
       travel += flat_distance(model, at, move->to);
       at = move->to;
       ++walks;

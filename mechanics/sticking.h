@@ -55,10 +55,12 @@ struct Margin {
   /// Least and greatest factor of the weight.
   double least_weight() const { return weightless ? 0.0 : 1.0 - force; }
   double most_weight() const { return 1.0 + force; }
-  bool is_none() const {
-    return !weightless && friction == 0.0 && force == 0.0 && torque_radius == 0.0 &&
-           place == 0.0 && centre_of_mass == 0.0 && grasp == 0.0 && tilt == 0.0;
+  /// Whether anything may be off.
+  bool has_box() const {
+    return friction != 0.0 || force != 0.0 || torque_radius != 0.0 || place != 0.0 ||
+           centre_of_mass != 0.0 || grasp != 0.0 || tilt != 0.0;
   }
+  bool is_none() const { return !weightless && !has_box(); }
 };
 
 /// The margin of a push that begins after the finger axis has travelled so far [m] on

@@ -104,17 +104,11 @@ class EasedStretch {
   double spent_ = 0.0;  ///< share of the plan's cost, by those
 };
 
-/// Nothing in it may be off.
-bool is_empty(Margin box) {
-  box.weightless = false;
-  return box.is_none();
-}
-
 }  // namespace
 
 bool ease(const SearchModel& search, double share, const Limits& limits, Work& work,
           Plan& plan) {
-  if (!nlopt_is_built() || is_empty(plan.margin) || !(share > 0.0)) return false;
+  if (!nlopt_is_built() || !plan.margin.has_box() || !(share > 0.0)) return false;
   account(*search.model, plan);
   double left = share;
   return repair_stretches(

@@ -138,7 +138,10 @@ std::optional<std::vector<Move>> search_plane(const SearchModel& search,
   const auto found = search_chains(search, from, goals, bound, limits, work);
   if (found) best.offer(moves_of(search, from, found->chain));
   const double worth = kWorthTolerance * best.cost();
-  if (worth > bound) {
+  // With a margin, where no way to the goal itself is found: little of the box would end
+  // within the tolerances.
+  const bool may_end_beside = !search.margin.has_box() || !best.any();
+  if (may_end_beside && worth > bound) {
     if (auto near = search_within_tolerance(search, from, goal, worth, limits, work)) {
       best.offer(std::move(*near), kWorthTolerance);
     }

@@ -132,7 +132,7 @@ double roll_slack(const Model& model, const Grasp& start, const Roll& roll,
                   const Margin& margin) {
   constexpr int kBits = 4;  // of a prism, whose corners take a millisecond each
   double slack = nominal_slack(model, start, roll);
-  if (margin.is_none() || slack < 0.0) return slack;
+  if (margin.is_none() || !(slack >= -kStickTolerance)) return slack;
   const double grip =
       roll.grip_force > 0.0 ? roll.grip_force : model.scene.gripper.grip_force;
   const PushContact& contact = model.contacts[roll.contact];

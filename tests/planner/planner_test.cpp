@@ -241,12 +241,12 @@ TEST(Planner, WholeTurnsOfTheStartDoNotMatter) {
 TEST(Planner, PolishNeverLengthens) {
   for (int i = 0; i < 40; ++i) {
     const Model model = prepare(random_regrasp(RegraspFamily::kTee, 9, i).scene);
-    PlanOptions options;
-    const Plan polished = plan_regrasp(model, options);
-    options.polish = false;
-    const Plan rough = plan_regrasp(model, options);
-    ASSERT_TRUE(polished.usable() && rough.usable()) << i;
+    const Plan eased = plan_regrasp(model);
+    const Plan polished = plan_regrasp(model, {.ease = 0.0});
+    const Plan rough = plan_regrasp(model, {.polish = false});
+    ASSERT_TRUE(eased.usable() && polished.usable() && rough.usable()) << i;
     EXPECT_LE(polished.cost, rough.cost + 1e-12) << i;
+    EXPECT_LE(eased.cost, (1.0 + PlanOptions().ease) * polished.cost + 1e-12) << i;
   }
 }
 

@@ -221,6 +221,27 @@ TEST(RobustPlan, ANominalPlanNeedNotWaitForTheWholeBudget) {
   EXPECT_GT(work_with_margin(Promise::kScene), 7'000'000);
 }
 
+/// Not beside it at the border of its tolerances, though that saves placements.
+TEST(RobustPlan, EndsAtTheGoalInMostDraws) {
+  constexpr int kDraws = 60;
+  int plans = 0, reached = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Model model =
+        prepare(random_among_walls(false, RegraspRange::kPublished, true, 1, i));
+    const Plan plan = plan_regrasp(model);
+    ASSERT_TRUE(plan.usable()) << i;
+    if (plan.promise != Promise::kMargin) continue;
+    ++plans;
+    for (int k = 0; k < kDraws; ++k) {
+      reached += try_plan(model, plan, usual_box(), random_point(7, k)).reaches;
+    }
+  }
+  std::printf("%d plans end at the goal in %.1f %% of their draws\n", plans,
+              100.0 * reached / (kDraws * plans));
+  EXPECT_GT(plans, 50);
+  EXPECT_GT(reached, 0.95 * kDraws * plans);
+}
+
 TEST(PlanTrial, TheMiddleOfTheBoxIsThePlan) {
   for (int i = 0; i < 10; ++i) {
     const Model model = prepare(published_tee(i));

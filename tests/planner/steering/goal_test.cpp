@@ -203,7 +203,9 @@ TEST(Goal, ToleratedPlacesReachIntoTheCorners) {
       const Vec2 off = translation(grasp.X_HO) - Vec2(*goal.x, *goal.y);
       farthest = std::max(farthest, off.norm() / goal.position_tolerance);
     }
-    EXPECT_NEAR(farthest, test == GoalTest::kPerCoordinate ? 0.9 * std::sqrt(2.0) : 0.9,
+    EXPECT_NEAR(farthest,
+                test == GoalTest::kPerCoordinate ? kUsedTolerance * std::sqrt(2.0)
+                                                 : kUsedTolerance,
                 1e-9);
   }
 }

@@ -20,6 +20,7 @@ set(costly_when_sanitized
   ClippedLaw.WhatItDeniesNoInstantDoes
   ConfinesCheck.NoPlanCollides
   Costs.GripsAreTheCheapestThatPass
+  Ease.PlansSurviveMoreThanTheirMargin
   ExactCheck.ADiscHasToStickToAPointAsWell
   ExactCheck.SlackOfAPointTellsWhetherItSlips
   Fallback.GoesOnWhereTheExactStagesAreCutShort
@@ -60,6 +61,7 @@ set(costly_when_sanitized
   PushEvents.WindingPushesGoOnToTheirEnd
   Reference.ConvergesToTheExactSolverWithGenerators
   Repair.MakesPushesStickThatSlipWithinTheMargin
+  RobustPlan.EndsAtTheGoalInMostDraws
   RobustPlan.ANominalPlanNeedNotWaitForTheWholeBudget
   RobustPlan.SaysSoWhereNoPlanSurvivesTheMargin
   RunSuite.JobsDoNotChangeResults

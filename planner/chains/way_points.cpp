@@ -11,7 +11,7 @@ namespace {
 /// Directions in which the finger axis may leave (or reach) a place, as unit e of the
 /// object's motion.
 struct Directions {
-  static constexpr int kCapacity = 12;
+  static constexpr int kCapacity = 12;  // of more reflex corners the first
   int count = 0;
   std::array<Vec2, kCapacity> e;
   void add(const Vec2& direction) {

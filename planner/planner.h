@@ -36,8 +36,8 @@ struct PlanOptions {
   bool prove = true;     ///< look for a barrier where no plan survives the margin
   bool polish = true;    ///< shorten the plan found with NLopt, where built
   /// Share of its cost, >= 0, that a polished plan with a margin may cost more to lie off
-  /// the border of that margin (NLopt, where built); 0: the cheapest, which mostly lies on
-  /// it.
+  /// the border of that margin (NLopt, where built); 0: the cheapest, which mostly lies
+  /// on it.
   double ease = 0.01;
   TransitionOptions transition;  ///< of the exact check
   /// Set by a signal handler: give up cleanly, with the best plan found so far.

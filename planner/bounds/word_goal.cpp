@@ -72,6 +72,7 @@ std::vector<GoalArc> goal_arcs(const WordQuestion& question) {
   const double high = goal.any_turn ? kPi : goal.turn_high - question.theta;
   const int count = 1 + static_cast<int>(std::min(2.0 * kPi, high - low) / kShortArc);
   std::vector<GoalArc> arcs;
+  arcs.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     arcs.push_back(goal_arc(question, low + (high - low) * i / count,
                             low + (high - low) * (i + 1) / count));

@@ -226,6 +226,12 @@ bool is_convex(const std::vector<Vec2>& outline) {
   return true;
 }
 
+bool is_reflex(const std::vector<Vec2>& outline, std::size_t i) {
+  const std::size_t n = outline.size();
+  const Vec2& v = outline[i];
+  return cross(v - outline[(i + n - 1) % n], outline[(i + 1) % n] - v) < 0.0;
+}
+
 double longer_side(const std::vector<Vec2>& outline) {
   Vec2 low = outline.front();
   Vec2 high = outline.front();

@@ -69,6 +69,9 @@ bool is_simple(const std::vector<Vec2>& outline);
 /// Whether a polygon turns left at every vertex; counter-clockwise and simple: convex.
 bool is_convex(const std::vector<Vec2>& outline);
 
+/// Whether a counter-clockwise polygon turns right at vertex i.
+bool is_reflex(const std::vector<Vec2>& outline, std::size_t i);
+
 /// Longer side of the object in the pad plane: L of the plan cost [m].
 double longer_side(const std::vector<Vec2>& outline);
 

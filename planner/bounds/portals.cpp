@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "planner/geometry/segment.h"
+#include "scene/outline.h"
 
 namespace prehensile {
 namespace {
@@ -15,12 +16,6 @@ bool on_side(const std::vector<Vec2>& outline, std::size_t from, std::size_t to,
     if (normal.dot(outline[i] - origin) < -1e-9) return false;
   }
   return true;
-}
-
-bool is_reflex(const std::vector<Vec2>& outline, std::size_t i) {
-  const std::size_t n = outline.size();
-  const Vec2& v = outline[i];
-  return cross(v - outline[(i + n - 1) % n], outline[(i + 1) % n] - v) < 0.0;
 }
 
 bool parts(const std::vector<Vec2>& outline, std::size_t i, std::size_t j,

@@ -3,14 +3,10 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 
 #include "planner/bounds/word_goal.h"
 
 namespace prehensile {
-
-/// Told each node that is divided: where a plan cheaper than the target might be.
-using WordVisitor = std::function<void(const WordNode&)>;
 
 /// A bound on J over all plans in the pad plane that is at most `target`: equal to it if
 /// that is proved. `nodes` counts down; no more work is done at 0, and what is left open

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "planner/pads/run_law.h"
@@ -58,6 +59,9 @@ struct WordNode {
   Split split = Split::kNone;
   signed char split_point = 0, split_edge = 0;
 };
+
+/// Told each node that is divided: where a plan cheaper than the target might be.
+using WordVisitor = std::function<void(const WordNode&)>;
 
 /// Fills `bound` and what to split; false if no plan of the node costs less than
 /// `target`. No heap.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/costs.h"
+#include "scene/outline.h"
 
 namespace prehensile {
 namespace {
@@ -55,10 +56,10 @@ Directions past_corners(const SearchModel& search, const Vec2& p_OF,
   const std::size_t n = outline.size();
   Directions directions;
   for (std::size_t i = 0; i < n; ++i) {
+    if (!is_reflex(outline, i)) continue;
     const Vec2& corner = outline[i];
     const Vec2 to_last = (outline[(i + n - 1) % n] - corner).normalized();
     const Vec2 to_next = (outline[(i + 1) % n] - corner).normalized();
-    if (cross(to_last, to_next) <= 0.0) continue;
     const Vec2 d = corner - p_OF;
     const double room = carried(search.margin, way_to(corner)).grasp;
     if (d.norm() <= room || d.norm() < kShortestLeg) continue;

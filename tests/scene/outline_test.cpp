@@ -112,6 +112,13 @@ TEST(HalfThickness, IsThatOfTheShape) {
   EXPECT_EQ(half_thickness(PrismShape{.outline = {}, .thickness = 0.04}), 0.02);
 }
 
+TEST(Outline, ATeeHasTwoReflexCorners) {
+  const std::vector<Vec2> outline = tee().outline;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    EXPECT_EQ(is_reflex(outline, i), i == 2 || i == 5) << i;
+  }
+}
+
 /// How high the side of an object is decides which pushers meet it.
 TEST(Outline, SidesHaveHeights) {
   for (const Face& face : faces_of(BoxShape{{0.1, 0.06, 0.03}})) {

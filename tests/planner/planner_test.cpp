@@ -104,13 +104,13 @@ TEST(Planner, SolvesConstructedTees) {
   solve_constructed(RegraspFamily::kTee, "Ts", 0, 100);
 }
 TEST(Planner, SolvesConstructedCans) {
-  solve_constructed(RegraspFamily::kCylinder, "cans", 0, 100);
+  solve_constructed(RegraspFamily::kCylinder, "cans", 0, 40);
 }
 
 TEST(Planner, FullSolvesMoreConstructedRegrasps) {
   solve_constructed(RegraspFamily::kBox, "boxes", 100, 400);
   solve_constructed(RegraspFamily::kTee, "Ts", 100, 400);
-  solve_constructed(RegraspFamily::kCylinder, "cans", 100, 400);
+  solve_constructed(RegraspFamily::kCylinder, "cans", 40, 460);
 }
 
 TEST(Planner, ConstructionsReplay) {

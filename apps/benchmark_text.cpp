@@ -69,6 +69,7 @@ Json json_of(const Results& results, const GroupSummary& group) {
   out["cost_median"] = number(group.cost_median);
   out["gap_median"] = number(group.gap_median);
   out["near_bound"] = group.near_bound;
+  out["near_bound_at_goal"] = group.near_bound_at_goal;
   out["part_of_margin"] = group.part_of_margin;
   out["nominal_only"] = group.nominal_only;
   out["pushes_median"] = number(group.pushes_median);

@@ -171,6 +171,10 @@ Command add_plan(CLI::App& app) {
           "easily beyond it; 0: the cheapest")
       ->check(in_range(0.0, 1.0))
       ->capture_default_str();
+  command.add_flag(
+      "--beside-goal", options->plan.beside_goal,
+      "with a margin: end beside the goal, within its tolerances, where that "
+      "is cheaper, though less of the margin then ends at the goal");
   command.add_flag("--no-polish", options->no_polish,
                    "keep the plan as the search found it");
   command.add_flag("--no-advice", options->no_advice,

@@ -131,10 +131,14 @@ std::string describe(const Model& model, const Plan& plan) {
     out += "goal:  " + pose_text(model, plan.goal) + '\n';
     if (!plan.pushes.empty()) out += push_table(model, plan);
     out += text(
-        "cost J = %.3f (%g placements, travel %.1f mm); lower bound %.3f, gap %.1f %%; "
-        "published cost %.1f\n",
+        "cost J = %.3f (%g placements, travel %.1f mm); lower bound %.3f, gap %.1f %%",
         plan.cost, plan.placements, to_mm(plan.travel), plan.lower_bound,
-        100.0 * plan.gap(), plan.published_cost);
+        100.0 * plan.gap());
+    if (plan.bound_at_goal) {
+      out += text("; to the goal itself %.3f, gap %.1f %%", *plan.bound_at_goal,
+                  100.0 * plan.gap_to(*plan.bound_at_goal));
+    }
+    out += text("; published cost %.1f\n", plan.published_cost);
     if (model.scene.cost) out += price_text(*model.scene.cost, plan);
     out += promise_text(plan);
   }

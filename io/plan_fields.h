@@ -224,6 +224,10 @@ void visit_costs(Fields& fields, WrittenPlan& record) {
       "bound_by", plan.bound_is_trivial, kBoundWords, kOptional,
       "What the bound knows: the distances to the goal alone, or what the contacts "
       "allow as well.");
+  fields.number("bound_at_goal", plan.bound_at_goal, kCosts,
+                "No plan that ends at the goal itself, within a thousandth of its "
+                "tolerances, costs less. Absent: the plan ends beside it, or lower_bound "
+                "says as much.");
   fields.measured("gap", record.gap, {-1.0, 1e12, ""},
                   "(cost - lower_bound) / lower_bound; for people, not read back.");
   fields.measured("published_cost", plan.published_cost, kCosts,

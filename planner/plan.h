@@ -134,6 +134,9 @@ struct Plan {
   double lower_bound = kNan;     ///< valid bound on J over all sticking plans
   bool bound_is_trivial = true;  ///< by distances alone, nothing about pushers
   std::int64_t bound_nodes = 0;  ///< work of the bound, see planner/bounds/bounds.h
+  /// Bound of plans that end at the goal itself (goal_itself), as this one does: where
+  /// that is more than `lower_bound`, which ends beside the goal may leave low.
+  std::optional<double> bound_at_goal;
   double published_cost = kNan;
 
   std::string planner;  ///< which planner found it
@@ -150,8 +153,9 @@ struct Plan {
     return status == PlanStatus::kReachedGoal || status == PlanStatus::kNothingToDo;
   }
   /// Of the cost over its bound; 0 where it is the bound, be that 0 as of nothing to do.
-  double gap() const {
-    return cost == lower_bound ? 0.0 : (cost - lower_bound) / lower_bound;
+  double gap() const { return gap_to(lower_bound); }
+  double gap_to(double bound) const {
+    return cost == bound ? 0.0 : (cost - bound) / bound;
   }
   bool rolls() const;  ///< some push is a roll
 };

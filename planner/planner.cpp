@@ -233,6 +233,18 @@ Plan decide(const Model& model, const PlanOptions& options) {
   return plan;
 }
 
+/// Where a plan with a margin has a gap, and does not use the room that the goal leaves.
+void set_bound_at_goal(const Model& model, const Grasp& start, const Goal& goal,
+                       Plan& plan) {
+  plan.bound_at_goal.reset();
+  const Goal itself = goal_itself(goal);
+  const bool has_gap = plan.cost > kGapAsked * plan.lower_bound;
+  if (!plan.margin.has_box() || !has_gap || !reaches(itself, plan.goal)) return;
+  const double bound =
+      lower_bound(model, start, itself, plan.cost, {.margin = plan.margin}).value;
+  if (bound > plan.lower_bound) plan.bound_at_goal = bound;
+}
+
 void set_bound(const Model& model, Plan& plan) {
   const Grasp& start = model.scene.start;
   const Goal goal = goal_within_limits(model.scene);
@@ -247,6 +259,7 @@ void set_bound(const Model& model, Plan& plan) {
   plan.lower_bound = bound.value;
   plan.bound_is_trivial = bound.is_trivial;
   plan.bound_nodes = bound.nodes;
+  set_bound_at_goal(model, start, goal, plan);
 }
 
 }  // namespace

@@ -39,6 +39,9 @@ struct PlanOptions {
   /// the border of that margin (NLopt, where built); 0: the cheapest, which mostly lies
   /// on it.
   double ease = 0.01;
+  /// With a margin: end beside the goal, within its tolerances, where that is cheaper.
+  /// Fewer members of the box then end at the goal. Without a margin plans always may.
+  bool beside_goal = false;
   TransitionOptions transition;  ///< of the exact check
   /// Set by a signal handler: give up cleanly, with the best plan found so far.
   const std::atomic<bool>* stop = nullptr;

@@ -61,6 +61,7 @@ void add_plan(const Plan& plan, const Model& model, RunRecord& record) {
   record.cost = plan.cost;
   // A plan without pushes costs nothing and has no gap.
   record.gap = plan.pushes.empty() ? 0.0 : plan.gap();
+  record.bound_at_goal = plan.bound_at_goal.value_or(kNothing);
   for (const PlannedPush& push : plan.pushes) {
     record.margin = std::fmin(record.margin, push.slack);
   }

@@ -71,17 +71,18 @@ struct RunRecord {
   std::int64_t instants = -1;        ///< exact mechanics calls of the planner
   std::int64_t check_instants = -1;  ///< likewise of verifying
   std::int64_t pushes = -1;
-  std::int64_t switches = -1;  ///< pusher placements
-  double travel = kNothing;    ///< [m]
-  double cost = kNothing;      ///< J
-  double bound = kNothing;     ///< on J
-  double gap = kNothing;       ///< (J - bound) / bound
-  double margin = kNothing;    ///< least slack over all pushes
-  double memory = kNothing;    ///< [MB] most that the process had
-  int signal = 0;              ///< that ended it; 0: none
-  std::string message;         ///< of the planner, the verifier or the system; one line
-  std::string scene;           ///< digest of the problem
-  std::string plan;            ///< digest of the plan's pushes
+  std::int64_t switches = -1;       ///< pusher placements
+  double travel = kNothing;         ///< [m]
+  double cost = kNothing;           ///< J
+  double bound = kNothing;          ///< on J
+  double gap = kNothing;            ///< (J - bound) / bound
+  double bound_at_goal = kNothing;  ///< of plans that end at the goal itself, as this one
+  double margin = kNothing;         ///< least slack over all pushes
+  double memory = kNothing;         ///< [MB] most that the process had
+  int signal = 0;                   ///< that ended it; 0: none
+  std::string message;  ///< of the planner, the verifier or the system; one line
+  std::string scene;    ///< digest of the problem
+  std::string plan;     ///< digest of the plan's pushes
   std::string host;
   std::vector<ProgressPoint> progress;
 
@@ -111,6 +112,7 @@ void visit_columns(Record& r, F&& f) {
   f("cost", r.cost);
   f("bound", r.bound);
   f("gap", r.gap);
+  f("bound_at_goal", r.bound_at_goal);
   f("margin", r.margin);
   f("memory", r.memory);
   f("signal", r.signal);

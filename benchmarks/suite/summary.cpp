@@ -39,7 +39,10 @@ GroupSummary group_of(const std::vector<const ResultRow*>& rows,
     costs.push_back(record.cost);
     gaps.push_back(record.gap);
     pushes.push_back(static_cast<double>(record.pushes));
-    if (record.gap <= kNearBound) ++group.near_bound;
+    const bool near_bound = record.gap <= kNearBound;
+    group.near_bound += near_bound;
+    group.near_bound_at_goal +=
+        near_bound || record.cost <= (1.0 + kNearBound) * record.bound_at_goal;
     if (record.part_of_margin) ++group.part_of_margin;
     if (record.nominal_only) ++group.nominal_only;
   }

@@ -27,7 +27,8 @@ struct GroupSummary {
   double time_median = kNothing, time_p99 = kNothing, time_most = kNothing;  ///< [s]
   double cost_median = kNothing;
   double gap_median = kNothing;
-  int near_bound = 0;  ///< solved with a gap of at most 10 %
+  int near_bound = 0;          ///< solved with a gap of at most 10 %
+  int near_bound_at_goal = 0;  ///< likewise, or to the bound of plans to the goal itself
   double pushes_median = kNothing;
   double memory_most = kNothing;  ///< [MB]
 

@@ -256,6 +256,14 @@ double trivial_bound(const Model& model, const Grasp& start, const Goal& goal) {
   return bound == 0.0 && !reaches(goal, start) ? 1.0 : bound;
 }
 
+Goal goal_itself(const Goal& goal) {
+  constexpr double kShare = 1e-3;
+  Goal itself = goal;
+  itself.position_tolerance *= kShare;
+  itself.angle_tolerance *= kShare;
+  return itself;
+}
+
 double guide_bound(const Model& model, const Grasp& start, const Goal& goal) {
   const GoalSet set(model, start, goal);
   const double distance = set.distance();

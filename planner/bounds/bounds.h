@@ -14,6 +14,9 @@ struct WordNode;
 /// Least distance in (p_OF, c theta) from a grasp to the goal set, rounded down [m].
 double distance_to_goal(const Model& model, const Grasp& start, const Goal& goal);
 
+/// A goal without the room that its tolerances leave: a thousandth of them.
+Goal goal_itself(const Goal& goal);
+
 /// J >= this for every plan of sticking pushes and rolls that reaches the goal; 0 at the
 /// goal. From distances alone: one placement, and the straight way.
 double trivial_bound(const Model& model, const Grasp& start, const Goal& goal);

@@ -202,20 +202,25 @@ bool costs_are_right(const Model& model, const Plan& plan) {
          agrees(plan.published_cost, counted.published_cost);
 }
 
-/// The bound that the plan claims is proved again: as a question of its own, or where the
+/// A bound that the plan claims is proved again: as a question of its own, or where the
 /// work for that ends too early, as the planner came to it. A weaker claim than what
 /// could be proved is right, too.
-bool bound_is_right(const Model& model, const Plan& plan) {
-  if (!(plan.lower_bound >= 0.0) ||
-      plan.lower_bound > plan.cost * (1.0 + kCostTolerance)) {
-    return false;
-  }
-  const Goal goal = goal_within_limits(model.scene);
+bool is_proved(const Model& model, const Plan& plan, const Goal& goal, double claimed) {
+  if (!(claimed >= 0.0) || claimed > plan.cost * (1.0 + kCostTolerance)) return false;
   const Grasp& start = model.scene.start;
-  return bound_holds(model, start, goal, plan.lower_bound,
+  return bound_holds(model, start, goal, claimed,
                      {.nodes = 4 * kBoundNodes, .margin = plan.margin}) ||
          lower_bound(model, start, goal, plan.cost, {.margin = plan.margin}).value >=
-             plan.lower_bound;
+             claimed;
+}
+
+bool bounds_are_right(const Model& model, const Plan& plan) {
+  const Goal goal = goal_within_limits(model.scene);
+  if (!is_proved(model, plan, goal, plan.lower_bound)) return false;
+  if (!plan.bound_at_goal) return true;
+  const Goal itself = goal_itself(goal);
+  return reaches(itself, plan.goal) &&
+         is_proved(model, plan, itself, *plan.bound_at_goal);
 }
 
 bool poses_connect(const Plan& plan, const ReplayOptions& options) {
@@ -283,7 +288,7 @@ Replay replay(const Model& model, const Plan& plan, const ReplayOptions& options
   if (model.scene.goal) {
     result.reaches_goal = reaches(*model.scene.goal, result.end);
     result.costs_right = costs_are_right(model, plan);
-    result.bound_right = bound_is_right(model, plan);
+    result.bound_right = bounds_are_right(model, plan);
   }
   result.why = first_disagreement(model, plan, options, result);
   result.agrees = result.why.empty();

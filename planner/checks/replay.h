@@ -32,7 +32,7 @@ struct Replay {
   bool reaches_goal = false;  ///< the replayed end pose satisfies the goal
   std::string confinement;    ///< which limit or obstacle is not kept to; empty: all are
   bool costs_right = false;   ///< S, T and J as recomputed from the pushes
-  bool bound_right = false;   ///< the lower bound is proved again
+  bool bound_right = false;   ///< the lower bounds are proved again
   bool agrees = false;        ///< all of the above and every push
   std::string why;
   Grasp end;

@@ -68,7 +68,7 @@ class RunSearch {
         try_contacts({{.centre = place.p_OF}, place.theta[j] - start_.theta}, limits);
       }
     }
-    if (search_.margin.has_box() || !goal.x || !goal.y || !goal.theta) return found_;
+    if (!search_.may_end_beside || !goal.x || !goal.y || !goal.theta) return found_;
     to_beat_ *= kWorthTolerance;
     const int windings = goal.theta_is == ThetaMeaning::kNumber ? 1 : 3;
     for (int k = 0; k < windings; ++k) {

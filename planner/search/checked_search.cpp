@@ -76,6 +76,7 @@ Plan attempt(const Model& model, const PlanOptions& options, const Clearance& cl
   SearchModel search = prepare_search(model, kept, clearance.left_out);
   search.looks_for_cheaper = clearance.looks_for_cheaper;
   search.points_stay = clearance.points_stay;
+  if (options.beside_goal) search.may_end_beside = true;
   if (work.meter) {
     work.meter->enter(kept.is_none() ? "search without margin" : "search");
     work.meter->forget_best();

@@ -140,8 +140,7 @@ std::optional<std::vector<Move>> search_plane(const SearchModel& search,
   const double worth = kWorthTolerance * best.cost();
   // With a margin, where no way to the goal itself is found: little of the box would end
   // within the tolerances.
-  const bool may_end_beside = !search.margin.has_box() || !best.any();
-  if (may_end_beside && worth > bound) {
+  if ((search.may_end_beside || !best.any()) && worth > bound) {
     if (auto near = search_within_tolerance(search, from, goal, worth, limits, work)) {
       best.offer(std::move(*near), kWorthTolerance);
     }

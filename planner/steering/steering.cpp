@@ -207,6 +207,7 @@ SearchModel prepare_search(const Model& model, const Margin& margin, int left_ou
   SearchModel search;
   search.model = &model;
   search.margin = margin;
+  search.may_end_beside = !margin.has_box();
   search.p_OF_start = finger_in_object(model.scene.start.X_HO);
   search.exact_everywhere =
       model.region.is_isotropic() && model.region.is_fixed_in_hand();

@@ -68,6 +68,8 @@ struct SearchModel {
   bool looks_for_cheaper = true;  ///< than the first plan found; see plane_search.h
   bool points_stay = false;       ///< pushes by one point cost one placement: not what
                                   ///< they do, but so plans of more of them are found
+  bool may_end_beside = true;     ///< beside the goal, within its tolerances, where that
+                                  ///< is cheaper
   Vec2 p_OF_start = Vec2::Zero();
   std::shared_ptr<const Confines> confines;  ///< null where the scene names none
   std::shared_ptr<const RingTable> rings;    ///< of round pads
@@ -95,7 +97,8 @@ bool has_points(const SearchModel& search) noexcept;
 /// a shorter one at places so close that they cover the face, a point pusher anywhere on
 /// the face but `margin.place` from its ends. No contacts where the grasp has no friction
 /// or no torque (point pads). `left_out`: a contact of the model that makes no push; -1:
-/// none. `model` must outlive the result.
+/// none. With a margin plans end at the goal itself where a way leads there. `model` must
+/// outlive the result.
 SearchModel prepare_search(const Model& model, const Margin& margin, int left_out = -1);
 
 /// Steered by the ellipsoid where a margin is kept over rings: its laws lead to some ways

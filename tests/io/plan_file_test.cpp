@@ -72,6 +72,7 @@ void expect_same(const Plan& a, const Plan& b) {
   expect_same(a.lower_bound, b.lower_bound);
   expect_same(a.published_cost, b.published_cost);
   EXPECT_EQ(a.bound_is_trivial, b.bound_is_trivial);
+  EXPECT_EQ(a.bound_at_goal, b.bound_at_goal);
   expect_same(a.seconds, b.seconds);
   ASSERT_EQ(a.pushes.size(), b.pushes.size());
   for (std::size_t i = 0; i < a.pushes.size(); ++i) {
@@ -96,6 +97,7 @@ TEST(PlanFile, RandomPlansReturnUnchanged) {
     plan.margin.weightless = random.chance(0.5);
     plan.promise = static_cast<Promise>(random.below(4));
     plan.bound_is_trivial = random.chance(0.5);
+    if (random.chance(0.5)) plan.bound_at_goal = random.in(1.0, 2.0);
     if (random.chance(0.3)) {
       plan.explanation = {"one \"paragraph\"",
                           {{"more grip", "--set gripper.grip_force=9", "", 1.5},

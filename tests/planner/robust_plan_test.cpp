@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "planner/bounds/bounds.h"
 #include "planner/checks/plan_trial.h"
 #include "planner/checks/replay.h"
 #include "tests/planner/planner_cases.h"
@@ -240,6 +241,46 @@ TEST(RobustPlan, EndsAtTheGoalInMostDraws) {
               100.0 * reached / (kDraws * plans));
   EXPECT_GT(plans, 50);
   EXPECT_GT(reached, 0.95 * kDraws * plans);
+}
+
+/// Beside it where asked to, for less; where not, a bound of its own says what an end at
+/// the goal itself must cost.
+TEST(RobustPlan, EndsBesideTheGoalWhereAskedTo) {
+  int cheaper = 0, bounded = 0, near = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Model model =
+        prepare(random_among_walls(false, RegraspRange::kPublished, true, 1, i));
+    const Goal itself = goal_itself(*model.scene.goal);
+    const Plan at = plan_regrasp(model);
+    const Plan beside = plan_regrasp(model, {.beside_goal = true});
+    ASSERT_TRUE(at.usable() && beside.usable()) << i;
+    EXPECT_LE(beside.cost, 1.02 * at.cost) << i;
+    EXPECT_TRUE(replay(model, beside).agrees) << i;
+    if (beside.cost < 0.95 * at.cost) {
+      ++cheaper;
+      EXPECT_FALSE(reaches(itself, beside.goal)) << i;
+      EXPECT_FALSE(beside.bound_at_goal) << i;
+      Plan claims = beside;
+      claims.bound_at_goal = 0.5 * claims.cost;
+      EXPECT_FALSE(replay(model, claims).agrees) << i;
+    }
+    if (!at.bound_at_goal) continue;
+    ++bounded;
+    near += at.cost <= 1.1 * *at.bound_at_goal;
+    EXPECT_TRUE(reaches(itself, at.goal)) << i;
+    EXPECT_GT(*at.bound_at_goal, at.lower_bound) << i;
+    EXPECT_LE(*at.bound_at_goal, at.cost) << i;
+    EXPECT_TRUE(replay(model, at).agrees) << i;
+    Plan claims = at;
+    claims.bound_at_goal = 1.03 * at.cost;
+    EXPECT_FALSE(replay(model, claims).agrees) << i;
+  }
+  std::printf(
+      "%d of 60 plans cheaper beside the goal; %d bounds of plans to the goal "
+      "itself, %d of them within 10 %%\n",
+      cheaper, bounded, near);
+  EXPECT_GT(cheaper, 0);
+  EXPECT_GT(near, 0);
 }
 
 TEST(PlanTrial, TheMiddleOfTheBoxIsThePlan) {

@@ -126,7 +126,8 @@ bool TransitRoom::keeps_clear(const HandPose& from, const HandPose& to) const {
   double done = 0.0;
   for (int look = 0; look < kMostLooks; ++look) {
     const double left = way - done;
-    const double enough = left + kResolution;
+    // Far above what is compared with it: sums with the clearance are rounded.
+    const double enough = left + 2.0 * kResolution;
     const HandPose at = between(from, to, way > 0.0 ? done / way : 0.0);
     const double hand = bodies_.hand_distance(at.X_WH, need + enough, at.z) - need;
     const double object =

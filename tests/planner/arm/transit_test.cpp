@@ -1,5 +1,6 @@
 #include "planner/arm/transit.h"
 
+#include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -110,6 +111,24 @@ TEST(Transit, IsNotFoundThroughAWall) {
   const Model limited = prepare(within);
   EXPECT_FALSE(find_transit(limited, {}, at(-0.3, 0.0, 0.0), at(0.3, 0.0, 0.0), 1));
   EXPECT_FALSE(transit_is_clear(limited, {}, at(-0.3, 0.0, 0.0), at(0.3, 0.0, 0.0)));
+}
+
+/// Where nothing is near every clearance is kept, whatever its digits, at poses as on
+/// ways of any length.
+TEST(Transit, TheDigitsOfTheClearanceDoNotMatter) {
+  if (!collisions_are_built()) GTEST_SKIP() << "built without FCL";
+  Random random(11);
+  Scene scene = divided(0.2, 0.5);
+  const HandPose here = at(-0.3, 0.0, 0.0);
+  for (int i = 1; i <= 2000; ++i) {
+    const double clearance = i <= 200 ? 1e-4 * i : std::pow(10.0, random.in(-4.0, -1.0));
+    scene.obstacles->clearance = clearance;
+    const Model model = prepare(scene);
+    const TransitRoom room(model, {});
+    EXPECT_TRUE(room.admits(here)) << clearance;
+    const double step = std::pow(10.0, random.in(-19.0, -2.0));
+    EXPECT_TRUE(room.is_clear(here, at(-0.3 - step, 0.0, 0.0))) << clearance;
+  }
 }
 
 /// Bodies that overlap, and a hand that may touch, are not mistaken for clear.

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "primitives/roll_support.h"
-
 namespace prehensile {
 namespace {
 
@@ -69,11 +67,14 @@ int PrismRoll::pivot(const PrismContacts& contacts) const {
   return sheet.vertex[staying_point(sheet, way_ > 0.0 ? 1 : -1)];
 }
 
+double PrismRoll::hand_z(const PrismContacts& contacts) const {
+  if (grip_.jaw_mode == JawMode::kFixedJaw1) return contacts.jaw_z[kJaw1];
+  if (grip_.jaw_mode == JawMode::kFixedJaw2) return contacts.jaw_z[kJaw2];
+  return 0.5 * (contacts.jaw_z[kJaw1] + contacts.jaw_z[kJaw2]);
+}
+
 double PrismRoll::place(int pivot, double phi, const PrismContacts& contacts) const {
-  double jaws = 0.5 * (contacts.jaw_z[kJaw1] + contacts.jaw_z[kJaw2]);
-  if (grip_.jaw_mode == JawMode::kFixedJaw1) jaws = contacts.jaw_z[kJaw1];
-  if (grip_.jaw_mode == JawMode::kFixedJaw2) jaws = contacts.jaw_z[kJaw2];
-  return rotated(phi, polygon_.vertex[pivot]).x() - jaws;
+  return rotated(phi, polygon_.vertex[pivot]).x() - hand_z(contacts);
 }
 
 double PrismRoll::next(double phi, double longest, bool& is_flat) const {
@@ -119,7 +120,7 @@ PadReach PrismRoll::pads(double phi) const {
   return {finger - half_pad_.x(), finger + half_pad_.x()};
 }
 
-bool PrismRoll::keeps_straight(const PrismLook& look) const {
+RollLoads PrismRoll::loads(const PrismLook& look) const {
   RollLoads loads;
   const SectionForces& forces = look.instant.forces;
   for (int i = 0; i < 3; ++i) {
@@ -134,6 +135,11 @@ bool PrismRoll::keeps_straight(const PrismLook& look) const {
   loads.weight = drive_.weight;
   loads.length = model_.prism->length;
   add_support(model_, contact_, start_, loads);
+  return loads;
+}
+
+bool PrismRoll::keeps_straight(const PrismLook& look) const {
+  const RollLoads loads = this->loads(look);
   return loads.high[kJaw1] >= loads.low[kJaw1] && lines_suffice(loads);
 }
 

@@ -1,5 +1,5 @@
 /// The attitudes of a prism that a support rolls between the jaws: contacts, instants and
-/// how far the support has moved at each. Internal to roll_prism.cpp.
+/// how far the support has moved at each. Internal to roll_prism.cpp and roll_load.cpp.
 #pragma once
 
 #include <array>
@@ -7,6 +7,7 @@
 #include "mechanics/model.h"
 #include "mechanics/prism_section.h"
 #include "primitives/push_record.h"
+#include "primitives/roll_support.h"
 
 namespace prehensile {
 
@@ -31,12 +32,19 @@ class PrismRoll {
  public:
   PrismRoll(const Model& model, const Grasp& start, const Roll& roll);
 
-  double first() const { return sign_ * start_.psi; }
+  double first() const { return attitude(start_.psi); }
+  double attitude(double psi) const { return sign_ * psi; }
   double way() const { return way_; }  ///< sign of the change of phi
   const SectionPolygon& polygon() const { return polygon_; }
 
   PrismContacts contacts(double phi) const;
   PrismLook look(double phi) const;
+
+  /// What the contacts of a look put on the object, along its axis.
+  RollLoads loads(const PrismLook& look) const;
+
+  /// Of what stands still in the hand, from the origin of O and up to a constant [m].
+  double hand_z(const PrismContacts& contacts) const;
 
   /// Vertex about which the section tips from this attitude.
   int pivot(const PrismContacts& contacts) const;

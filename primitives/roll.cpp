@@ -12,40 +12,12 @@ namespace {
 
 constexpr double kNegligible = 1e-6;
 
-const CylinderShape& cylinder_of(const Model& model) {
-  return *std::get_if<CylinderShape>(&model.scene.object.shape);
-}
-
 Vec2 axis_of(const Model& model) {
-  return cylinder_of(model).axis == Axis::kX ? Vec2(1.0, 0.0) : Vec2(0.0, 1.0);
+  const auto& cylinder = *std::get_if<CylinderShape>(&model.scene.object.shape);
+  return cylinder.axis == Axis::kX ? Vec2(1.0, 0.0) : Vec2(0.0, 1.0);
 }
 
 RollSection refused(std::string_view reason) { return {.reason = reason}; }
-
-/// Places on both pads and on the support that keep the object from tilting and yawing.
-bool lines_suffice(const Model& model, const PushContact& contact, const Grasp& grasp,
-                   const CrossSectionInstant& instant, double weight) {
-  const ContactPoints pad = model.region.at(grasp.X_HO);
-  const Vec2 t_H = rotated(grasp.X_HO.theta, contact.t);
-  double pad_low = 0.0;
-  double pad_high = 0.0;
-  for (int j = 0; j < pad.count; ++j) {
-    const double along = t_H.dot(Vec2(pad.x[j], pad.y[j]));
-    pad_low = j == 0 ? along : std::min(pad_low, along);
-    pad_high = j == 0 ? along : std::max(pad_high, along);
-  }
-  const auto& normal = instant.normal_force;
-  const auto& tangential = instant.tangential_force;
-  RollLoads loads;
-  loads.along_z = {normal[kJaw1], -normal[kJaw2], tangential[kSheet]};
-  loads.along_u = {tangential[kJaw1], tangential[kJaw2], normal[kSheet]};
-  loads.low = {pad_low, pad_low, 0.0};
-  loads.high = {pad_high, pad_high, 0.0};
-  loads.weight = weight;
-  loads.length = cylinder_of(model).length;
-  add_support(model, contact, grasp, loads);
-  return lines_suffice(loads);
-}
 
 /// The support sticks and the object turns in place between the jaws.
 bool rolls(const CrossSectionModel& section, double sheet_rate,
@@ -174,10 +146,8 @@ Transition apply_roll(const Model& model, const Grasp& start, const Roll& roll,
     return record.finish(start, 0.0, kNan, 0);
   }
 
-  CrossSectionModel gripped = *model.cross_section;
-  if (roll.grip_force > 0.0) gripped.grip_force = roll.grip_force;
   const PushContact& contact = model.contacts[roll.contact];
-  const CrossSectionDrive drive{contact.mu, roll.travel, section.weight};
+  const auto [gripped, drive] = section_roll(model, roll, section.weight);
   const CrossSectionInstant instant = solve_cross_section(gripped, drive);
   const double certificate = cross_section_residual(gripped, drive, instant);
   const Constant constant{start,       gripped.radius,
@@ -186,8 +156,8 @@ Transition apply_roll(const Model& model, const Grasp& start, const Roll& roll,
   record.add(sample_at(constant, 0.0));
   if (!record.stopped() && !rolls(gripped, roll.travel, instant)) {
     record.stop(stop_of(instant), 0.0);
-  } else if (!record.stopped() &&
-             !lines_suffice(model, contact, start, instant, section.weight)) {
+  } else if (!record.stopped() && !lines_suffice(cylinder_loads(
+                                      model, contact, start, instant, section.weight))) {
     record.stop({TransitionStatus::kRefused,
                  {},
                  "pads and support are too short: the object would tilt or yaw"},

@@ -1,10 +1,12 @@
 /// What rolls of round and of prismatic objects share: whether lines of contact keep the
-/// object from tilting and yawing. Internal to roll.cpp and roll_prism.cpp.
+/// object from tilting and yawing, and where along them they press. Internal to the
+/// rolls.
 #pragma once
 
 #include <array>
 
 #include "mechanics/model.h"
+#include "primitives/push.h"
 
 namespace prehensile {
 
@@ -24,8 +26,24 @@ struct RollLoads {
 /// vanish.
 bool lines_suffice(const RollLoads& loads) noexcept;
 
+/// Where the support's resultant acts, as `low` and `high` [m]: in the middle of its line
+/// if the jaws can balance that, else as near to it as they can. NaN if no place does.
+double support_place(const RollLoads& loads) noexcept;
+
 /// `low` and `high` of the support, and the arm of the weight.
 void add_support(const Model& model, const PushContact& contact, const Grasp& grasp,
                  RollLoads& loads) noexcept;
+
+/// A roll of Model::cross_section in its section, with the grip of the roll.
+struct SectionRoll {
+  CrossSectionModel section;
+  CrossSectionDrive drive;
+};
+SectionRoll section_roll(const Model& model, const Roll& roll, double weight) noexcept;
+
+/// Of a cylinder at an instant of its section.
+RollLoads cylinder_loads(const Model& model, const PushContact& contact,
+                         const Grasp& grasp, const CrossSectionInstant& instant,
+                         double weight) noexcept;
 
 }  // namespace prehensile

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
-#include "mechanics/sticking.h"
+#include "planner/arm/push_load.h"
 #include "planner/arm/transit.h"
 #include "planner/costs.h"
 #include "planner/obstacles/placement.h"
@@ -25,12 +26,6 @@ struct Run {
   ArmPhase phase = ArmPhase::kTransit;
   int push = 0;
   std::size_t first = 0, end = 0;
-};
-
-/// Force of the pusher on the object, and where it acts; in O.
-struct PushLoad {
-  Vec2 force = Vec2::Zero();
-  Vec2 place = Vec2::Zero();
 };
 
 class MotionWriter {
@@ -122,14 +117,14 @@ class MotionWriter {
   }
 
   void write_push() {
+    loads_.emplace(model_, planned(), z_);
     if (const auto* roll = std::get_if<Roll>(&planned().push)) return write_roll(*roll);
     const LinearPush push = as_linear(planned().push);
     change_grip(grip_force_of(model_, planned().push), planned().start);
     const PlanarPose& X_HO = planned().start.X_HO;
     const PlanarPose X_WP = object_at_pusher(model_, contact(), push.place);
     move(ArmPhase::kPush, push.travel, push.turn, limits_.push_speed, [&](double s) {
-      held_ = pusher_pose(push, X_HO, s);
-      return HandPose{compose(X_WP, inverse(held_)), z_};
+      return HandPose{compose(X_WP, inverse(pusher_pose(push, X_HO, s))), z_};
     });
     held_ = planned().end.X_HO;
   }
@@ -213,48 +208,24 @@ class MotionWriter {
     sample.X_WT = {sample.X_WH.position + sample.X_WH.orientation * p_HT_,
                    sample.X_WH.orientation * q_HT_};
     sample.grip_force = grip_;
-    set_load(phase, s, pose, sample);
+    set_load(phase == ArmPhase::kPush ? loads_->at(s) : load_at_rest(model_, held_),
+             sample);
     motion_.samples.push_back(sample);
   }
 
-  PushLoad load_at(double s) const {
-    PushLoad load;
-    const LinearPush push = as_linear(planned().push);
-    const PlanarPose& X_HO_start = planned().start.X_HO;
-    const PushContact& touched = contact();
-    if (std::holds_alternative<Roll>(planned().push)) {
-      load.force = planned().push_force * touched.n;
-      load.place = 0.5 * (touched.a + touched.b);
-      return load;
-    }
-    const StickTest test =
-        exact_stick_test(model_, touched, push.place, pusher_pose(push, X_HO_start, s),
-                         push.e, push.travel, push.turn, Margin::none());
-    load.force = test.normal_force * touched.n + test.tangential_force * touched.t;
-    load.place = 0.5 * (touched.a + touched.b) + test.centre_of_pressure * touched.t;
-    return load;
-  }
-
   /// Push and weight, moved to the tool.
-  void set_load(ArmPhase phase, double s, const HandPose& pose, ArmSample& sample) const {
-    const PlanarPose X_WO = compose(pose.X_WH, held_);
-    const Vec2 com = transform(X_WO, model_.p_OCom);
+  void set_load(const HeldLoad& load, ArmSample& sample) const {
     const Vec3 weight(model_.mass * model_.scene.g_W.x(),
                       model_.mass * model_.scene.g_W.y(),
                       model_.mass * model_.scene.g_Wz);
-    const Vec3 p_WCom(com.x(), com.y(), pose.z + model_.z_OCom);
-    Vec3 force = weight;
-    Vec3 moment = (p_WCom - sample.X_WT.position).cross(weight);
-    if (phase == ArmPhase::kPush) {
-      const PushLoad load = load_at(s);
-      const Vec2 f = rotated(X_WO.theta, load.force);
-      const Vec2 p = transform(X_WO, load.place);
-      const double height = 0.5 * (contact().z_low + contact().z_high);
-      const Vec3 pushed(f.x(), f.y(), 0.0);
-      force += pushed;
-      moment += (Vec3(p.x(), p.y(), height) - sample.X_WT.position).cross(pushed);
-    }
-    sample.force = sample.X_WT.orientation.conjugate() * force;
+    const Vec3 pushed = sample.X_WH.orientation * load.f_H;
+    const auto from_tool = [&](const Vec3& p_H) {
+      return Vec3(sample.X_WH.position + sample.X_WH.orientation * p_H -
+                  sample.X_WT.position);
+    };
+    const Vec3 moment =
+        from_tool(load.p_HCom).cross(weight) + from_tool(load.p_HP).cross(pushed);
+    sample.force = sample.X_WT.orientation.conjugate() * (weight + pushed);
     sample.moment = sample.X_WT.orientation.conjugate() * moment;
   }
 
@@ -297,7 +268,8 @@ class MotionWriter {
   Eigen::Quaterniond q_HT_;
   ArmMotion motion_;
   std::vector<Run> runs_;
-  PlanarPose held_;  // X_HO, at the time of the sample that is written
+  PlanarPose held_;                 // X_HO between pushes
+  std::optional<PushLoads> loads_;  // of the push that is written
   int push_ = 0;
   double steps_ = 0.0;  // whole ones of 1 / rate since the motion began
   double grip_ = 0.0;

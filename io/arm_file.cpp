@@ -24,8 +24,16 @@ constexpr const char* kColumns =
     "moment_x,moment_y,moment_z,guard_force";
 constexpr std::size_t kColumnCount = 25;
 
-/// -0 is written as 0, so that files do not depend on how a zero came about.
-std::string number(double value) { return number_text(value == 0.0 ? 0.0 : value); }
+/// -0 is written as 0, so that files do not depend on how a zero came about; and readers
+/// of YAML 1.1 take 5e-04 without a point for a text.
+std::string number(double value) {
+  std::string text = number_text(value == 0.0 ? 0.0 : value);
+  const std::size_t exponent = text.find('e');
+  if (exponent != std::string::npos && text.find('.') == std::string::npos) {
+    text.insert(exponent, ".0");
+  }
+  return text;
+}
 
 std::string joined(std::initializer_list<double> values, const char* separator) {
   std::string out;
@@ -56,6 +64,26 @@ std::string yaml_text(const std::string& text) {
 struct Note {
   std::string key, value;
 };
+
+/// Under the names of plan files: shares, [m] and [rad].
+std::string margin_text(const Margin& margin) {
+  std::string out = "{friction: " + number(margin.friction);
+  out += ", force: " + number(margin.force);
+  out += ", torque_radius: " + number(margin.torque_radius);
+  out += ", place: " + number(margin.place);
+  out += ", centre_of_mass: " + number(margin.centre_of_mass);
+  out += ", grasp: " + number(margin.grasp);
+  out += ", tilt: " + number(margin.tilt);
+  if (margin.weightless) out += ", gravity: must not help";
+  return out + "}";
+}
+
+/// What the plan says of itself, which a robot cannot find in the samples.
+void add_promise(const Plan& plan, std::vector<Note>& notes) {
+  notes.push_back({"promise", yaml_text(std::string(name(plan.promise)))});
+  notes.push_back({"margin", margin_text(plan.margin)});
+  if (!plan.message.empty()) notes.push_back({"message", yaml_text(plan.message)});
+}
 
 std::vector<Note> notes_of(const PlanFile& file, const ArmMotion& motion,
                            const ArmLimits& limits) {
@@ -93,6 +121,7 @@ std::vector<Note> notes_of(const PlanFile& file, const ArmMotion& motion,
       {"turn_speed", number(limits.turn_speed)},
       {"turn_acceleration", number(limits.turn_acceleration)},
       {"clearance", number(limits.clearance)}};
+  add_promise(file.plan, notes);
   for (std::size_t i = 0; i < file.plan.pushes.size(); ++i) {
     const auto contact = static_cast<std::size_t>(contact_of(file.plan.pushes[i].push));
     const PushContact& touched = model.contacts.at(contact);

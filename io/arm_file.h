@@ -1,5 +1,6 @@
 /// Arm motions as files that robots read: CSV with everything, TUM lines and a YAML list
-/// of poses. Frames, units and the order of quaternions are written into each.
+/// of poses. Frames, units, the order of quaternions and what the plan promises to
+/// survive are written into each.
 #pragma once
 
 #include <filesystem>

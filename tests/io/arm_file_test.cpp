@@ -140,5 +140,36 @@ TEST(ArmFile, SaysWhichTransitIsNotAllowed) {
   EXPECT_NE(yaml.find("transit_to_push_2: "), std::string::npos);
 }
 
+/// As the plan says it, in every form; where it promises less than was asked for, also
+/// why.
+TEST(ArmFile, SaysWhatThePlanPromises) {
+  Written one = written(ArmFormat::kCsv);
+  Plan& plan = one.plan.plan;
+  plan.margin = {0.125, 0.25, 0.0625, 0.001, 0.002, 5e-4, 0.004, false};
+  for (const Promise promise :
+       {Promise::kNominal, Promise::kNominalOnly, Promise::kPartOfMargin,
+        Promise::kMargin, Promise::kScene}) {
+    plan.promise = promise;
+    for (const bool is_lesser : {false, true}) {
+      plan.message = is_lesser ? "survives 50 %" : "";
+      plan.margin.weightless = is_lesser;
+      for (const ArmFormat format :
+           {ArmFormat::kCsv, ArmFormat::kTum, ArmFormat::kYaml}) {
+        const std::string before = format == ArmFormat::kYaml ? "\n" : "\n# ";
+        const std::string text = arm_to_text(one.plan, one.motion, {}, format);
+        const auto has = [&](const std::string& line) {
+          return text.find(before + line + "\n") != std::string::npos;
+        };
+        EXPECT_TRUE(has("promise: \"" + std::string(name(promise)) + "\""));
+        EXPECT_TRUE(
+            has("margin: {friction: 0.125, force: 0.25, torque_radius: 0.0625, "
+                "place: 0.001, centre_of_mass: 0.002, grasp: 5.0e-04, tilt: 0.004" +
+                std::string(is_lesser ? ", gravity: must not help}" : "}")));
+        EXPECT_EQ(has("message: \"survives 50 %\""), is_lesser);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace prehensile

@@ -166,15 +166,19 @@ class MotionWriter {
     grip_ = to;
   }
 
-  /// A motion of this length and turn within the limits.
+  /// A motion of this length and turn within the limits, its rates in proportion: the
+  /// tool goes along with the hand, and on a circle about it.
   template <typename Path>
   void move(ArmPhase phase, double length, double turn, double speed, const Path& path) {
     const double lever = p_HT_.head<2>().norm();
     const double way = std::abs(length) + lever * std::abs(turn);
     const double angle = std::abs(turn);
+    const double round =
+        std::hypot(kPeakSecondRate * angle, kPeakRate * kPeakRate * angle * angle);
+    const double second = kPeakSecondRate * std::abs(length) + lever * round;
     run(phase,
         std::max({kPeakRate * way / speed, kPeakRate * angle / limits_.turn_speed,
-                  std::sqrt(kPeakSecondRate * way / limits_.acceleration),
+                  std::sqrt(second / limits_.acceleration),
                   std::sqrt(kPeakSecondRate * angle / limits_.turn_acceleration)}),
         path);
   }

@@ -20,8 +20,8 @@
 
 namespace prehensile {
 
-/// How fast and how far; all > 0. Speeds and accelerations are of the hand's origin, and
-/// of the tool's by as much as its lever about the closing direction adds.
+/// How fast and how far; all > 0. Speeds and accelerations are those that neither the
+/// hand's origin nor the tool's exceeds.
 struct ArmLimits {
   double push_speed = 0.02;        ///< [m/s]
   double approach_speed = 0.03;    ///< [m/s] also of the retreat

@@ -8,6 +8,7 @@
 #include "planner/chains/chain_search.h"
 #include "planner/chains/direct_push.h"
 #include "planner/chains/fan_search.h"
+#include "planner/chains/scattered_push.h"
 #include "planner/chains/shorten.h"
 #include "planner/search/cheapen.h"
 #include "planner/search/wound_search.h"
@@ -127,10 +128,13 @@ std::optional<std::vector<Move>> search_plane(const SearchModel& search,
                                               const Limits& limits, Work& work) {
   const FlatState from = flat_state(start);
   const GoalPlaces goals = goal_places(*search.model, goal, from, search.margin);
-  const auto direct = direct_push(search, from, goals, work);
-  if (direct && (!search.looks_for_cheaper || goes_straight(search, goals, *direct))) {
-    return std::vector{*direct};
-  }
+  auto direct = direct_push(search, from, goals, work);
+  if (direct && !search.looks_for_cheaper) return std::vector{*direct};
+  const double way =
+      direct ? flat_distance(*search.model, direct->from, direct->to) : kInfinity;
+  const auto shorter = scattered_push(search, from, goal, way, work);
+  if (shorter) direct = shorter;
+  if (direct && goes_straight(search, goals, *direct)) return std::vector{*direct};
   BestMoves best(search);
   if (direct) best.offer({*direct});
   const double bound = guide_bound(*search.model, start, goal);

@@ -35,6 +35,17 @@ bool winds(const Goal& goal) {
 /// 0, 1, -1, 2, -2, ... times the step.
 double offset(int i, double step) { return step * (i % 2 == 0 ? -i / 2 : (i + 1) / 2); }
 
+/// The digits of i in this base, mirrored at the point: in (0, 1).
+double radical_inverse(int i, int base) {
+  double inverse = 0.0;
+  double digit = 1.0;
+  for (; i > 0; i /= base) {
+    digit /= base;
+    inverse += digit * (i % base);
+  }
+  return inverse;
+}
+
 double flat_distance(const Model& model, const FlatState& from, const GoalPlace& to) {
   return flat_distance(model, from, FlatState{to.p_OF, to.theta[0]});
 }
@@ -68,6 +79,20 @@ class PlaceCollector {
             windings);
       }
     }
+  }
+
+  /// The i-th member of a sequence over what the goal leaves free.
+  void add_scattered(const Scatter& scatter, int i) {
+    const auto off = [&](int base) {
+      return scatter.width * (radical_inverse(i + 1, base) - 0.5);
+    };
+    const bool is_angle = goal_.theta && goal_.theta_is == ThetaMeaning::kAngle;
+    const double theta = goal_.theta ? nearest_angle(goal_, start_.theta)
+                                     : scatter.around.theta + 2.0 * kPi * off(2);
+    const Vec2 kept = -rotated(theta, scatter.around.p_OF);
+    const Vec2 position = kept + model_.L * Vec2(off(3), off(5));
+    add(theta, {goal_.x.value_or(position.x()), goal_.y.value_or(position.y())},
+        is_angle ? kWindings : 1);
   }
 
   /// The goal that fixes all, by more whole turns than add_angle.
@@ -211,6 +236,16 @@ GoalPlaces goal_places(const Model& model, const Goal& goal, const FlatState& st
     for (const double degrees : kAngles) {
       collector.add_angle(start.theta + degrees * kPi / 180.0);
     }
+  }
+  return collector.sorted();
+}
+
+GoalPlaces scattered_places(const Model& model, const Goal& goal, const FlatState& start,
+                            const Scatter& scatter, const Margin& margin) noexcept {
+  if (fixes_all(goal)) return {};
+  PlaceCollector collector(model, goal, start, margin);
+  for (int i = 0; i < GoalPlaces::kCapacity; ++i) {
+    collector.add_scattered(scatter, scatter.round * GoalPlaces::kCapacity + i);
   }
   return collector.sorted();
 }

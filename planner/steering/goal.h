@@ -55,6 +55,20 @@ struct GoalPlaces {
 GoalPlaces goal_places(const Model& model, const Goal& goal, const FlatState& start,
                        const Margin& margin = Margin::none()) noexcept;
 
+/// Where scattered members of a goal set lie: around a state, over a share of the
+/// object's length and of a turn, the next ones of a sequence in each round.
+struct Scatter {
+  FlatState around;
+  double width = 1.0;
+  int round = 0;  ///< >= 0
+};
+
+/// Members of a goal that leaves coordinates free, those of a sequence that fills the
+/// range of these evenly (Halton 1960); as many as there is room for. None of a goal that
+/// fixes all.
+GoalPlaces scattered_places(const Model& model, const Goal& goal, const FlatState& start,
+                            const Scatter& scatter, const Margin& margin) noexcept;
+
 /// A goal that fixes place and angle, at more whole turns than goal_places: two to
 /// thirteen to either side, the fewest first. None where the angle is a number.
 GoalPlaces wound_places(const Model& model, const Goal& goal,

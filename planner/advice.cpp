@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <numbers>
 
+#include "planner/steering/limits.h"
 #include "primitives/uncertainty.h"
 
 namespace prehensile {
@@ -28,17 +30,31 @@ double written(double value) { return std::strtod(number(value).c_str(), nullptr
 /// Tries changed scenes and keeps those that can be planned.
 class Adviser {
  public:
-  Adviser(const Model& model, const PlanOptions& options, std::int64_t budget)
-      : model_(model), options_(options) {
+  Adviser(const Model& model, const Plan& plan, const PlanOptions& options,
+          std::int64_t budget)
+      : model_(model),
+        falls_(plan.proof.kind == Proof::Kind::kStartFalls ||
+               plan.proof.kind == Proof::Kind::kGoalFalls),
+        is_by_other_(options.planner != PlanOptions{}.planner),
+        options_(options) {
     options_.budget = std::min(options.budget, budget);
     options_.nominal_if_needed = false;
     options_.prove = false;
-    options_.time_limit = 0.0;
+    options_.planner = PlanOptions{}.planner;
+    options_.settings = {};
+    begin_ = std::chrono::steady_clock::now() -
+             std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                 std::chrono::duration<double>(plan.seconds));
     options_.margin = options.margin.value_or(usual_margin(model));
   }
 
+  /// Whether the time was over before all was tried.
+  bool is_late() const { return !with_time_left(options_, begin_); }
+
   std::vector<ProposedChange> changes() {
+    if (is_by_other_) works(model_.scene, {"the own planner", "--planner push"});
     try_frictions();
+    try_finger_frictions();
     if (!try_grip_forces()) try_grip_range();
     try_tolerances();
     try_free_angle();
@@ -53,8 +69,9 @@ class Adviser {
 
   /// Keeps the change if its scene can be planned with the margin asked for.
   bool works(const Scene& scene, ProposedChange change) {
-    if (stopped() || !check(scene).empty()) return false;
-    const Plan plan = plan_regrasp(prepare(scene, model_.options), options_);
+    const auto rest = with_time_left(options_, begin_);
+    if (stopped() || !rest || !check(scene).empty()) return false;
+    const Plan plan = plan_regrasp(prepare(scene, model_.options), *rest);
     if (plan.status != PlanStatus::kReachedGoal) return false;
     change.cost = plan.cost;
     changes_.push_back(std::move(change));
@@ -79,9 +96,31 @@ class Adviser {
     }
   }
 
+  /// Of a grasp that falls, whatever holds it: that is told without a search.
+  bool is_worth_trying(double factor) const { return factor <= 4.0 || falls_; }
+
+  void try_finger_frictions() {
+    const std::array<double, 2> from = model_.scene.gripper.friction;
+    for (const double factor : {1.25, 1.5, 2.0, 4.0, 8.0, 16.0, 32.0}) {
+      const std::array<double, 2> to = {written(factor * from[0]),
+                                        written(factor * from[1])};
+      if (!is_worth_trying(factor) || std::max(to[0], to[1]) > kMostFriction) return;
+      Scene scene = model_.scene;
+      scene.gripper.friction = to;
+      const auto both = [](const std::array<double, 2>& mu) {
+        return mu[0] == mu[1] ? number(mu[0])
+                              : '[' + number(mu[0]) + ',' + number(mu[1]) + ']';
+      };
+      ProposedChange change{"friction of the fingers " + both(from) + " -> " + both(to)};
+      change.option = "--set gripper.friction=" + both(to);
+      if (works(scene, std::move(change))) return;
+    }
+  }
+
   bool try_grip_forces() {
     const double from = model_.scene.gripper.grip_force;
-    for (const double factor : {1.25, 1.5, 2.0, 4.0}) {
+    for (const double factor : {1.25, 1.5, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0}) {
+      if (!is_worth_trying(factor)) return false;
       Scene scene = model_.scene;
       const double to = written(factor * from);
       scene.gripper.grip_force = to;
@@ -236,7 +275,10 @@ class Adviser {
   }
 
   const Model& model_;
+  const bool falls_;
+  const bool is_by_other_;  ///< planner than that of the trials
   PlanOptions options_;
+  std::chrono::steady_clock::time_point begin_;  ///< of planning
   std::vector<ProposedChange> changes_;
 };
 
@@ -261,7 +303,7 @@ std::string shares(const ConstraintCounts& stopped_by) {
   return out;
 }
 
-std::string paragraph(const Plan& plan, const Explanation& explanation) {
+std::string paragraph(const Plan& plan, const Explanation& explanation, bool is_late) {
   std::string text;
   if (plan.status == PlanStatus::kInfeasible) {
     text = "No plan exists: " + plan.proof.text + ".";
@@ -275,6 +317,9 @@ std::string paragraph(const Plan& plan, const Explanation& explanation) {
   if (plan.stopped_by.total() > 0) {
     text += " Of " + std::to_string(plan.stopped_by.total()) +
             " pushes that the search gave up, " + shares(plan.stopped_by) + ".";
+  }
+  if (explanation.changes.empty() && is_late) {
+    return text + " The time was over before all changes that might help were tried.";
   }
   if (explanation.changes.empty()) {
     return text +
@@ -297,10 +342,13 @@ std::string paragraph(const Plan& plan, const Explanation& explanation) {
 Explanation explain(const Model& model, const Plan& plan, const PlanOptions& options,
                     std::int64_t budget) {
   Explanation explanation;
+  bool is_late = false;
   if (model.scene.goal) {
-    explanation.changes = Adviser(model, options, budget).changes();
+    Adviser adviser(model, plan, options, budget);
+    explanation.changes = adviser.changes();
+    is_late = adviser.is_late();
   }
-  explanation.text = paragraph(plan, explanation);
+  explanation.text = paragraph(plan, explanation, is_late);
   return explanation;
 }
 

@@ -1,6 +1,7 @@
 #include "planner/planner.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -76,6 +77,21 @@ std::string lesser_promise(const std::string& why, const std::string& what) {
   return "no plan was found that survives the margin (" + why + "); this one " + what;
 }
 
+/// What a plan with a margin does not promise.
+std::string caveat_of(const Model& model, const Plan& plan) {
+  std::string caveat = given_caveat(model, plan);
+  Goal half = *model.scene.goal;
+  half.position_tolerance *= 0.5;
+  half.angle_tolerance *= 0.5;
+  if (plan.margin.has_box() && !reaches(half, plan.goal)) {
+    if (!caveat.empty()) caveat += "; ";
+    caveat +=
+        "it ends beside the goal, within its tolerances: within the margin its pushes "
+        "stick, but part of it may end beyond them (check --samples, --success goal)";
+  }
+  return caveat;
+}
+
 /// Of a margin that no plan was found for, a half, then a quarter more or less: a plan
 /// that survives so much is better than the nominal one, which is given back where no
 /// such plan is found. `why` there is none for the whole.
@@ -99,7 +115,7 @@ Plan with_part_of_margin(const Model& model, const PlanOptions& options,
       plan.promise = Promise::kPartOfMargin;
       plan.message = lesser_promise(
           why, "survives " + std::to_string(std::lround(100.0 * share)) + " % of it");
-      const std::string caveat = given_caveat(model, plan);
+      const std::string caveat = caveat_of(model, plan);
       if (!caveat.empty()) plan.message += "; " + caveat;
       best = std::move(plan);
     }
@@ -118,7 +134,9 @@ Plan search_with_and_without(const Model& model, const PlanOptions& options, Wor
   const bool nominal = margin.is_none();
   const bool falls_back = options.nominal_if_needed && !nominal;
   PlanOptions robust = options;
-  robust.time_limit *= falls_back ? kShareOfTime : 1.0 - kShareOfProof;
+  robust.time_limit *= falls_back      ? kShareOfTime
+                       : options.prove ? 1.0 - kShareOfProof
+                                       : 1.0;
   if (falls_back) {
     work.budget = work.done() + work_with_margin(options);
   }
@@ -128,8 +146,9 @@ Plan search_with_and_without(const Model& model, const PlanOptions& options, Wor
   const bool undecided =
       plan.status == PlanStatus::kBudgetSpent || plan.status == PlanStatus::kStopped;
   if (!undecided) {
-    std::string caveat = plan.usable() ? given_caveat(model, plan) : std::string();
-    if (!caveat.empty()) plan.message = std::move(caveat);
+    const std::string caveat = plan.usable() ? caveat_of(model, plan) : std::string();
+    if (!caveat.empty() && !plan.message.empty()) plan.message += "; ";
+    plan.message += caveat;
     return plan;
   }
   if (Limits(options, work).stopped()) {
@@ -163,8 +182,56 @@ Plan search_with_and_without(const Model& model, const PlanOptions& options, Wor
                              std::move(without));
 }
 
-/// With `improve`: what is found without it, and what a search goes on to find, whichever
-/// survives more or, surviving the same, is cheaper.
+/// Planners that carry on where ours has ended and leaves a gap, the quickest first, and
+/// the propagations that each may make.
+constexpr std::array kOthers = {"two-trees", "random-shooting", "geometric::RRTstar"};
+constexpr std::int64_t kWorkOfOthers = 200'000;
+
+/// Of the time that is left, for ours.
+constexpr double kShareOfOwn = 0.5;
+
+/// Whichever survives more or, surviving the same, is cheaper.
+void keep_better(const Model& model, Plan other, Plan& plan) {
+  if (!other.usable()) return;
+  account(model, other);
+  account(model, plan);
+  const double more = size_of(other.margin) - size_of(plan.margin);
+  if (more > 0.0 || (more == 0.0 && other.cost < plan.cost)) plan = std::move(other);
+}
+
+bool has_gap(const Model& model, const Plan& plan) {
+  const Goal goal = goal_within_limits(model.scene);
+  const BoundOptions of_plan{.margin = plan.margin};
+  return plan.cost >
+         kGapAsked *
+             lower_bound(model, model.scene.start, goal, plan.cost, of_plan).value;
+}
+
+/// The others by turns, each with a share of the work and the time.
+void search_by_others(const Model& model, const PlanOptions& options,
+                      std::chrono::steady_clock::time_point begin, Work& work,
+                      Plan& plan) {
+  const std::int64_t whole = work.budget;
+  for (std::size_t i = 0; i < kOthers.size(); ++i) {
+    auto rest = with_time_left(options, begin);
+    work.budget = whole;
+    if (!rest || Limits(*rest, work).reached() || !has_gap(model, plan)) break;
+    rest->planner = kOthers[i];
+    rest->settings = {};
+    if (!planner_fault(rest->planner, {}).empty()) continue;
+    const auto left = static_cast<double>(kOthers.size() - i);
+    rest->time_limit /= left;
+    work.budget = work.done() + std::min(kWorkOfOthers, share_of_left(work, 1.0 / left));
+    Found found;
+    Plan other = search_and_check(model, *rest, plan.margin, work, found);
+    other.promise = plan.promise;
+    keep_better(model, std::move(other), plan);
+  }
+  work.budget = whole;
+}
+
+/// With `improve`: what is found without it, what a search goes on to find, and what
+/// other planners do.
 Plan search_on(const Model& model, const PlanOptions& options, Work& work) {
   if (!options.improve || options.planner != PlanOptions{}.planner) {
     return search_with_and_without(model, options, work);
@@ -174,15 +241,15 @@ Plan search_on(const Model& model, const PlanOptions& options, Work& work) {
   first.improve = false;
   Plan plan = search_with_and_without(model, first, work);
   if (!plan.usable()) return plan;
-  const auto rest = with_time_left(options, begin);
+  auto rest = with_time_left(options, begin);
   if (!rest) return plan;
-  Plan better = search_with_and_without(model, *rest, work);
-  if (!better.usable()) return plan;
-  const double more = size_of(better.margin) - size_of(plan.margin);
-  if (more != 0.0) return more > 0.0 ? better : plan;
-  account(model, plan);
-  account(model, better);
-  return better.cost < plan.cost ? better : plan;
+  rest->time_limit *= kShareOfOwn;
+  const bool is_whole = plan.promise == options.promise;
+  rest->nominal_if_needed = options.nominal_if_needed && !is_whole;
+  rest->prove = options.prove && !is_whole;
+  keep_better(model, search_with_and_without(model, *rest, work), plan);
+  search_by_others(model, options, begin, work, plan);
+  return plan;
 }
 
 Plan decide(const Model& model, const PlanOptions& options) {

@@ -54,8 +54,9 @@ class Ending {
     // Some tell of a solution when they have one, some put it into the problem, and two
     // keep it for themselves until the end.
     problem.definition()->setIntermediateSolutionCallback(
-        [this](const ob::Planner*, const std::vector<const ob::State*>&, ob::Cost) {
+        [this](const ob::Planner*, const std::vector<const ob::State*>&, ob::Cost cost) {
           note_solution();
+          if (ProgressMeter* meter = problem_.work().meter) meter->found(cost.value());
         });
   }
   ~Ending() { problem_.definition()->setIntermediateSolutionCallback({}); }

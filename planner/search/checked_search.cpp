@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "planner/baselines/baselines.h"
+#include "planner/bounds/bounds.h"
 #include "planner/catalogue.h"
 #include "planner/checks/exact_check.h"
 #include "planner/checks/meet_end.h"
@@ -67,6 +68,19 @@ std::vector<int> contacts_of(const Plan& plan) {
   return contacts;
 }
 
+/// Of the work and the time of a search that goes on until they are spent, for the polish
+/// and the check of what it found.
+constexpr double kShareOfFinish = 0.1;
+
+Plan search_with_share(const SearchModel& search, const PlanOptions& options,
+                       Work& work) {
+  if (!options.improve) return search_plan(search, options, work);
+  PlanOptions share = options;
+  share.time_limit *= 1.0 - kShareOfFinish;
+  return within_budget(work, share_of_left(work, 1.0 - kShareOfFinish),
+                       [&] { return search_plan(search, share, work); });
+}
+
 /// One search, finished and checked.
 Plan attempt(const Model& model, const PlanOptions& options, const Clearance& clearance,
              Work& work, Found& found) {
@@ -80,6 +94,7 @@ Plan attempt(const Model& model, const PlanOptions& options, const Clearance& cl
   if (work.meter) {
     work.meter->enter(kept.is_none() ? "search without margin" : "search");
     work.meter->forget_best();
+    work.meter->bound(trivial_bound(model, model.scene.start, *model.scene.goal));
   }
   if (search.contacts.empty()) {
     Plan plan = blank_plan(search, model.scene.start, options);
@@ -88,12 +103,16 @@ Plan attempt(const Model& model, const PlanOptions& options, const Clearance& cl
     } else {
       plan.status = PlanStatus::kUnsupported;
       plan.message =
-          "nothing can be pushed: the pads have no friction, no grip or no torque";
+          model.F > 0.0
+              ? "nothing can be pushed: pads that are points resist no turning "
+                "(gripper.pad: soft_point does, and any pad with an extent)"
+              : "nothing can be pushed: the fingers have no friction or no grip "
+                "(gripper.friction, gripper.grip_force)";
     }
     return plan;
   }
   const Limits limits(options, work);
-  Plan plan = search_plan(search, options, work);
+  Plan plan = search_with_share(search, options, work);
   plan.margin = clearance.margin;
   found.drift = uncounted_drift(model, plan);
   if (plan.status == PlanStatus::kReachedGoal) {
@@ -172,6 +191,11 @@ Plan search_and_check(const Model& model, const PlanOptions& options,
     again({margin, kClearOfBorder}, "; a little clear of slipping: ");
   } else if (failed_check() && asked == Asked::kWholeMargin) {
     again({margin.scaled(2.0)}, "; with double the margin: ");
+    if (plan.usable()) {
+      plan.message =
+          "planned for double the margin: what was found for the margin itself fails its "
+          "exact check";
+    }
   }
   for (const double unused : kUnusedFriction) {
     if (!failed_check()) break;

@@ -117,6 +117,24 @@ Scene one_wall() {
   return scene;
 }
 
+/// Where ours ends and leaves a gap, others carry on.
+TEST(Improve, OthersCarryOn) {
+  int cheaper = 0;
+  for (int i = 0; i < 10; ++i) {
+    const Model model =
+        prepare(random_among_walls(false, RegraspRange::kWide, true, 1, i));
+    PlanOptions options;
+    const Plan first = plan_regrasp(model, options);
+    options.improve = true;
+    options.budget = 3'000'000;
+    const Plan plan = plan_regrasp(model, options);
+    ASSERT_TRUE(plan.usable() && replay(model, plan).agrees) << i;
+    EXPECT_LE(plan.cost, first.cost) << i;
+    cheaper += plan.planner != options.planner;
+  }
+  EXPECT_GE(cheaper, 1);
+}
+
 TEST(Advice, NamesOnlyChangesThatWork) {
   const Scene scene = one_wall();
   const Model model = prepare(scene);
@@ -176,8 +194,31 @@ TEST(Advice, AfterAProofToo) {
   const Plan plan = plan_regrasp(model);
   ASSERT_EQ(plan.status, PlanStatus::kInfeasible);
   const Explanation explanation = explain(model, plan, {});
-  ASSERT_EQ(explanation.changes.size(), 1u);
+  ASSERT_EQ(explanation.changes.size(), 1u);  // no friction up to 2 would do
   EXPECT_NE(explanation.changes[0].option.find("gripper.grip_force"), std::string::npos);
+}
+
+/// However little of the object the fingers hold, what would hold it is named.
+TEST(Advice, SaysWhatHoldsAnObjectThatFalls) {
+  for (const double share : {0.02, 0.05, 0.1}) {
+    Scene scene = published_tee(20);
+    scene.gripper.grip_force *= share;
+    const Model model = prepare(scene);
+    const Plan plan = plan_regrasp(model);
+    ASSERT_EQ(plan.status, PlanStatus::kInfeasible);
+    EXPECT_FALSE(explain(model, plan, {}).changes.empty()) << share;
+  }
+}
+
+TEST(Advice, EndsWithTheTime) {
+  const Model model = prepare(one_wall());
+  PlanOptions options;
+  options.time_limit = 0.01;
+  Plan plan = plan_regrasp(model, options);
+  plan.seconds = 0.01;
+  const Explanation explanation = explain(model, plan, options);
+  EXPECT_TRUE(explanation.changes.empty());
+  EXPECT_NE(explanation.text.find("time was over"), std::string::npos);
 }
 
 TEST(Advice, StopsWhenAsked) {

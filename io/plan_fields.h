@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -149,10 +151,21 @@ void if_positive(Fields& fields, const char* key, double& value, const Bounds& b
   value = written.value_or(0.0);
 }
 
+/// Written where it is finite.
+template <typename Fields>
+void if_finite(Fields& fields, const char* key, double& value, const Bounds& bounds,
+               const char* doc) {
+  std::optional<double> written;
+  if (std::isfinite(value)) written = value;
+  fields.number(key, written, bounds, doc);
+  value = written.value_or(std::numeric_limits<double>::infinity());
+}
+
 template <typename Fields>
 void visit_margin(Fields& fields, Margin& margin) {
   fields.number("friction", margin.friction, kShares, kRequired, "Of the pusher.");
-  fields.number("force", margin.force, kShares, kRequired, "Of weight over grip.");
+  if_finite(fields, "force", margin.force, {0.0, 1e300, ""},
+            "Of weight over grip. Absent: without end, as the grip may vanish.");
   fields.number("torque_radius", margin.torque_radius, kShares, kRequired,
                 "Of the pads.");
   fields.number("place", margin.place, kDistances, kRequired, "Of the pusher.");

@@ -80,14 +80,19 @@ bool may_miss(const Model& model, const PushEnd& end) {
 
 }  // namespace
 
-std::string start_holding_fault(const Model& model, const Plan& plan) {
-  if (plan.pushes.empty() || can_roll(model.scene.object) || model.prism) return {};
+bool fingers_hold_start(const Model& model, double grip_share) {
   constexpr double kRounding = 1e-9;
+  if (can_roll(model.scene.object) || model.prism) return true;
+  const PlanarGrasp grasp =
+      grasp_at(model, model.scene.start.X_HO, model.scene.g_W / grip_share);
+  return gravity_slack_by_pad_law(model, grasp) >= -kRounding;
+}
+
+std::string start_holding_fault(const Model& model, const Plan& plan) {
+  if (plan.pushes.empty()) return {};
   const double share =
       grip_force_on_way(model, plan.pushes, 0) / model.scene.gripper.grip_force;
-  const PlanarGrasp grasp =
-      grasp_at(model, plan.start.X_HO, model.scene.g_W / std::max(1.0, share));
-  if (gravity_slack_by_pad_law(model, grasp) >= -kRounding) return {};
+  if (fingers_hold_start(model, std::max(1.0, share))) return {};
   return "at the start the fingers alone do not hold the object";
 }
 

@@ -8,6 +8,10 @@
 
 namespace prehensile {
 
+/// Whether the fingers alone hold the object at the start, at so many times the grip of
+/// the scene. True of what may roll: a support may carry it.
+bool fingers_hold_start(const Model& model, double grip_share = 1.0);
+
 /// Why the fingers drop the object before the first push, with the grip of the way there,
 /// or an empty text. Not of what may roll: a support may carry it.
 std::string start_holding_fault(const Model& model, const Plan& plan);

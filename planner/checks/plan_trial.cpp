@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mechanics/violation.h"
+#include "planner/checks/holding_check.h"
 #include "planner/planner.h"
 
 namespace prehensile {
@@ -29,10 +30,24 @@ Grasp turned(const Grasp& grasp, double angle) {
   return other;
 }
 
+/// A plan without pushes: the fingers hold the object, and where they hold it is a goal.
+PlanTrial try_to_hold(const Model& model, const UncertaintyBox& box, const BoxPoint& at) {
+  PlanTrial trial;
+  const UncertainPush varied =
+      vary(model.scene, model.scene.start, LinearPush{}, box, at);
+  trial.is_scene = check(varied.scene).empty();
+  if (!trial.is_scene) return trial;
+  trial.end = varied.start;
+  trial.sticks = fingers_hold_start(prepare(varied.scene, model.options));
+  trial.reaches = trial.sticks && reaches(*model.scene.goal, trial.end);
+  return trial;
+}
+
 }  // namespace
 
 PlanTrial try_plan(const Model& model, const Plan& plan, const UncertaintyBox& box,
                    const BoxPoint& at, const TransitionOptions& options) {
+  if (plan.pushes.empty()) return try_to_hold(model, box, at);
   PlanTrial trial;
   trial.end = model.scene.start;
   UncertaintyBox rest = box;  // the object is misplaced in the hand once only

@@ -29,6 +29,9 @@ inline constexpr double kTrialSlip = 1e-6;
 /// a real pusher takes away those along its normal. So `sticks` says what the plan
 /// promises, and `reaches` is rather strict.
 ///
+/// Of a plan without pushes `sticks` says whether the fingers hold the object, and `end`
+/// is where they do.
+///
 /// A roll is known of an object square to its support and with its centre of mass in its
 /// middle only (primitives/roll.h): it is tried without errors of tilt, centre of mass
 /// and angle; the angle by which the object is off in the hand is there again after it.

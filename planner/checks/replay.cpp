@@ -14,6 +14,7 @@
 #include "planner/obstacles/confines_check.h"
 #include "planner/planner.h"
 #include "planner/steering/confines.h"
+#include "primitives/uncertainty.h"
 
 namespace prehensile {
 namespace {
@@ -127,10 +128,23 @@ bool margin_is_sound(const Margin& margin) {
          margin.tilt >= 0.0;
 }
 
-bool promise_is_right(const Plan& plan) {
+/// Whether one box lies within another.
+bool is_within(const Margin& part, const Margin& whole) {
+  const auto most = [](double width) { return width * (1.0 + 1e-9) + 1e-12; };
+  return part.friction <= most(whole.friction) && part.force <= most(whole.force) &&
+         part.torque_radius <= most(whole.torque_radius) &&
+         part.place <= most(whole.place) &&
+         part.centre_of_mass <= most(whole.centre_of_mass) &&
+         part.grasp <= most(whole.grasp) && part.tilt <= most(whole.tilt);
+}
+
+bool promise_is_right(const Model& model, const Plan& plan) {
   const bool is_nominal =
       plan.promise == Promise::kNominal || plan.promise == Promise::kNominalOnly;
-  return is_nominal == plan.margin.is_none();
+  if (is_nominal != plan.margin.is_none()) return false;
+  if (plan.promise != Promise::kScene) return true;
+  return model.scene.uncertainty &&
+         is_within(margin_of(model, box_of(model.scene)), plan.margin);
 }
 
 bool agrees(double stated, double computed) {
@@ -234,7 +248,7 @@ std::string first_disagreement(const Model& model, const Plan& plan,
                                const ReplayOptions& options, const Replay& replay) {
   if (!plan.usable()) return "the plan does not claim to reach its goal";
   if (!margin_is_sound(plan.margin)) return "the margin is not a box of uncertainty";
-  if (!promise_is_right(plan))
+  if (!promise_is_right(model, plan))
     return "the plan does not have the margin that it promises";
   if (!replay.starts_right) return "the plan does not start at the start of the scene";
   if (!replay.connected) return "a push does not start where the one before ended";

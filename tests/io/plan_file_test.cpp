@@ -1,6 +1,7 @@
 #include "io/plan_file.h"
 
 #include <bit>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -47,6 +48,7 @@ void expect_same(const Plan& a, const Plan& b) {
   EXPECT_EQ(a.proof.kind, b.proof.kind);
   EXPECT_EQ(a.proof.twist, b.proof.twist);
   EXPECT_EQ(a.proof.text, b.proof.text);
+  EXPECT_EQ(a.margin.force, b.margin.force);
   EXPECT_EQ(a.margin.place, b.margin.place);
   EXPECT_EQ(a.margin.friction, b.margin.friction);
   EXPECT_EQ(a.margin.grasp, b.margin.grasp);
@@ -93,6 +95,7 @@ TEST(PlanFile, RandomPlansReturnUnchanged) {
     const Model model = prepare(scene.scene);
     Plan plan = random_plan(random, model);
     if (random.chance(0.5)) plan.margin.grasp = random.in(0.0, 1e-2);
+    if (random.chance(0.1)) plan.margin.force = std::numeric_limits<double>::infinity();
     if (random.chance(0.5)) plan.margin.tilt = random.in(0.0, 0.1);
     plan.margin.weightless = random.chance(0.5);
     plan.promise = static_cast<Promise>(random.below(4));

@@ -295,6 +295,33 @@ TEST(PlanTrial, TheMiddleOfTheBoxIsThePlan) {
   }
 }
 
+/// Without a push the object stays as it is held, which may be beside the goal, or fall.
+TEST(PlanTrial, NothingToDoMayBeWrong) {
+  Scene scene = published_tee(20);
+  scene.goal->x = scene.start.X_HO.x;
+  scene.goal->y = scene.start.X_HO.y;
+  scene.goal->theta = scene.start.X_HO.theta;
+  const Model model = prepare(scene);
+  const Plan plan = plan_regrasp(model);
+  ASSERT_EQ(plan.status, PlanStatus::kNothingToDo);
+  EXPECT_TRUE(try_plan(model, plan, usual_box(), BoxPoint{}).reaches);
+  UncertaintyBox box;
+  box[Unknown::kGraspX] = 0.02;
+  int held = 0, reached = 0;
+  for (int i = 0; i < 100; ++i) {
+    const PlanTrial trial = try_plan(model, plan, box, random_point(1, i));
+    held += trial.sticks;
+    reached += trial.reaches;
+  }
+  EXPECT_EQ(held, 100);
+  EXPECT_LT(reached, 20);
+  box = {};
+  box[Unknown::kGripForce] = 0.95;
+  BoxPoint weak{};
+  weak[static_cast<std::size_t>(Unknown::kGripForce)] = -1.0;
+  EXPECT_FALSE(try_plan(model, plan, box, weak).sticks);
+}
+
 TEST(PlanTrial, SaysWhichPushFails) {
   const Model model = prepare(published_tee(0));
   PlanOptions options;

@@ -6,6 +6,7 @@
 
 #include "planner/costs.h"
 #include "planner/planner.h"
+#include "primitives/uncertainty.h"
 #include "tests/planner/planner_cases.h"
 
 namespace prehensile {
@@ -59,6 +60,8 @@ TEST_F(ReplayTest, RejectsTamperedPlans) {
   expect_rejected("higher bound", [](Plan& plan) { plan.lower_bound = plan.cost; });
   expect_rejected("wider margin",
                   [](Plan& plan) { plan.margin = plan.margin.scaled(9.0); });
+  expect_rejected("promise of a scene that states nothing",
+                  [](Plan& plan) { plan.promise = Promise::kScene; });
   expect_rejected("negative margin", [](Plan& plan) { plan.margin.place = -1.0; });
   expect_rejected("more slack", [](Plan& plan) { plan.pushes[0].slack += 0.01; });
   expect_rejected("no slack", [](Plan& plan) { plan.pushes[1].slack = kNan; });
@@ -71,6 +74,19 @@ TEST_F(ReplayTest, RejectsTamperedPlans) {
   expect_rejected("no margin", [](Plan& plan) { plan.margin = Margin::none(); });
   expect_rejected("no promise", [](Plan& plan) { plan.promise = Promise::kNominal; });
   expect_rejected("no claim", [](Plan& plan) { plan.status = PlanStatus::kBudgetSpent; });
+}
+
+TEST(Replay, HoldsAPlanToTheUncertaintyOfItsScene) {
+  Scene scene = published_tee(10);
+  scene.uncertainty = Uncertainty{};
+  scene.uncertainty->friction = 0.1;
+  const Model model = prepare(scene);
+  Plan plan = plan_regrasp(
+      model, {.margin = margin_of(model, box_of(scene)), .promise = Promise::kScene});
+  ASSERT_TRUE(plan.usable());
+  EXPECT_TRUE(replay(model, plan).agrees);
+  plan.margin.friction = 0.05;
+  EXPECT_FALSE(replay(model, plan).agrees);
 }
 
 TEST_F(ReplayTest, RejectsThePlanOfAnotherScene) {

@@ -58,8 +58,10 @@ int check_refusal(const Model& model, const PlanFile& file, bool json) {
     const nlohmann::ordered_json out = {{"agrees", proved}, {"why", why}};
     std::printf("%s\n", out.dump(2).c_str());
   } else if (proved) {
-    std::printf("%s: the proof of infeasibility holds: %s\n", file.scene.name.c_str(),
-                file.plan.proof.text.c_str());
+    std::printf(
+        "%s: the proof of infeasibility (%s) holds; in the words of the file: %s\n",
+        file.scene.name.c_str(), std::string(name(file.plan.proof.kind)).c_str(),
+        file.plan.proof.text.c_str());
   } else {
     std::printf("%s: FAILED: %s\n", file.scene.name.c_str(), why.c_str());
   }
@@ -143,14 +145,16 @@ Command add_check(CLI::App& app) {
       .add_option("--samples", options->samples,
                   "also follow the plan in this many members of its uncertainty")
       ->check(CLI::Range(1, 10'000'000));
-  add_vary_option(command, options->vary);
+  add_vary_option(command, options->vary).needs("--samples");
   command.add_option("--seed", options->seed, "of the samples")
       ->check(is_seed())
+      ->needs("--samples")
       ->capture_default_str();
   command
       .add_option("--jobs", options->jobs,
                   "threads; 0: one per core. The answer is the same for any number")
       ->check(CLI::Range(0, 1024))
+      ->needs("--samples")
       ->capture_default_str();
   command
       .add_option("--at-least", options->at_least,
@@ -162,6 +166,7 @@ Command add_check(CLI::App& app) {
                   "sticks: every push is done without slip; goal: the pose at the end is "
                   "a goal, too")
       ->check(CLI::IsMember({"sticks", "goal"}))
+      ->needs("--samples")
       ->capture_default_str();
   add_mujoco_options(command, options->mujoco);
   command.footer(

@@ -78,9 +78,10 @@ int run(const Options& options) {
   if (!file.scene.goal) {
     throw BadInput(options.scene.file + ": goal: missing: expected the wanted pose");
   }
-  if (options.robust && !file.scene.uncertainty) {
-    throw BadInput(options.scene.file +
-                   ": uncertainty: missing: expected with --robust, as in "
+  if (options.robust && box_of(file.scene).active().empty()) {
+    throw BadInput(options.scene.file + ": uncertainty: " +
+                   (file.scene.uncertainty ? "all widths are 0" : "missing") +
+                   ": expected with --robust, as in "
                    "uncertainty: {friction: 0.2, start_position: 0.001}");
   }
 

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include <CLI/CLI.hpp>
 
@@ -78,18 +79,24 @@ void read_entry(const std::string& text, UncertaintyBox& box) {
 
 }  // namespace
 
-void add_vary_option(CLI::App& command, std::vector<std::string>& entries) {
-  command
-      .add_option("--vary", entries,
-                  "half widths of what is uncertain: " + std::string(kKnown))
-      ->delimiter(',');
+CLI::Option& add_vary_option(CLI::App& command, std::vector<std::string>& entries) {
+  return *command
+              .add_option("--vary", entries,
+                          "half widths of what is uncertain: " + std::string(kKnown))
+              ->delimiter(',');
 }
 
 UncertaintyBox parse_box(const std::vector<std::string>& entries,
                          const UncertaintyBox& otherwise) {
   if (entries.empty()) return otherwise;
   UncertaintyBox box;
-  for (const std::string& entry : entries) read_entry(entry, box);
+  std::set<std::string> keys;
+  for (const std::string& entry : entries) {
+    read_entry(entry, box);
+    if (!keys.insert(entry.substr(0, entry.find('='))).second) {
+      refuse(entry, "given twice: expected one half width for each");
+    }
+  }
   return box;
 }
 

@@ -10,12 +10,13 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace prehensile::apps {
 
 /// Adds --vary name=width,... to a command.
-void add_vary_option(CLI::App& command, std::vector<std::string>& entries);
+CLI::Option& add_vary_option(CLI::App& command, std::vector<std::string>& entries);
 
 /// "friction=0.2" is a share of the nominal value, "friction=0.05abs" a number in the
 /// unit of the field; lengths and angles are always absolute: place_mm, travel_mm,

@@ -131,8 +131,9 @@ void visit_gripper(Fields& fields, Gripper& gripper) {
   fields.number("grip_force", gripper.grip_force, {0.0, 1e6, "N"}, kRequired,
                 "Of each finger.");
   fields.vector("grip_range", gripper.grip_range, {1e-3, 1e6, "N"},
-                "Least and greatest grip force that a plan may push with; gravity along "
-                "the closing direction has to be 0. Absent: grip_force.");
+                "Least and greatest grip force that a plan may push with, beside "
+                "grip_force; gravity along the closing direction has to be 0. Absent: "
+                "grip_force only.");
   fields.word("jaw_mode", gripper.jaw_mode, kJawModeWords, kOptional,
               "coupled: symmetric jaws; fixed_jaw_1 or fixed_jaw_2: that jaw stands "
               "still, the other one presses; independent: each presses by itself; "

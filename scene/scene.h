@@ -134,8 +134,8 @@ struct Gripper {
   Pad pad;
   std::array<double, 2> friction = {0.0, 0.0};  ///< of jaw 1 and jaw 2, >= 0
   double grip_force = 0.0;                      ///< [N] of each finger, >= 0
-  /// [N] least and greatest grip force that a plan may push with, > 0, for gravity in the
-  /// pad plane. Unset: grip_force.
+  /// [N] least and greatest grip force that a plan may push with beside grip_force, > 0,
+  /// for gravity in the pad plane. Unset: grip_force only.
   std::optional<Vec2> grip_range;
   JawMode jaw_mode = JawMode::kCoupled;
   PadPressure pressure;

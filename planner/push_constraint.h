@@ -17,7 +17,7 @@ enum class PushConstraint {
   kRealPads,      ///< sticks by the closed form, but not with the real pads
   kThetaLimit,    ///< the angle of the object would leave its limits
   kReach,         ///< the finger axis or the hand would leave its limits
-  kCollision,     ///< the hand or the object would come too near to an obstacle
+  kCollision,     ///< hand or object would come too near to an obstacle or each other
   kCount
 };
 inline constexpr int kPushConstraints = static_cast<int>(PushConstraint::kCount);

@@ -54,9 +54,10 @@ struct ConvexBody {
 };
 
 /// Bodies that keep apart: those of the fixture from those of the hand, and from the held
-/// object but where it touches the pusher.
+/// object but where it touches the pusher; those of the hand that reach between the faces
+/// which the pads touch, as a palm does, from the held object.
 struct Obstacles {
-  double clearance = 1e-3;  ///< [m] of the hand from the fixture, >= 0
+  double clearance = 1e-3;  ///< [m] of the hand from the fixture and the object, >= 0
   double approach = 0.03;   ///< [m] along the pusher's normal, free before and after
   std::vector<ConvexBody> fixture;  ///< in W
   std::vector<ConvexBody> hand;     ///< in H

@@ -19,6 +19,11 @@ double CollisionBodies::object_distance(const PlanarPose& /*X_WO*/, double /*eno
   return 0.0;
 }
 
+double CollisionBodies::palm_distance(const PlanarPose& /*X_OH*/, double /*enough*/,
+                                      double /*coarse*/) const {
+  return 0.0;
+}
+
 double CollisionBodies::hand_reach() const { return 0.0; }
 
 double CollisionBodies::object_reach() const { return 0.0; }

@@ -157,15 +157,15 @@ double distance_from_plane(const Solid& body, const Eigen::Isometry3d& X_WB,
 }  // namespace
 
 struct CollisionBodies::Bodies {
-  std::vector<Solid> fixture, hand, object;
+  std::vector<Solid> fixture, hand, palm, object;
   double hand_reach = 0.0, object_reach = 0.0;
   std::int64_t queries = 0;
 
   double distance(const std::vector<Solid>& moving, const Eigen::Isometry3d& X_W,
-                  double enough, double coarse) {
+                  const std::vector<Solid>& still, double enough, double coarse) {
     double least = enough;
     for (const Solid& body : moving) {
-      for (const Solid& fixed : fixture) {
+      for (const Solid& fixed : still) {
         least = std::min(least, distance_of_pair(body, X_W, fixed, least, coarse));
         if (least <= 0.0) return 0.0;
       }
@@ -210,6 +210,7 @@ CollisionBodies::CollisionBodies(const Model& model)
   const Obstacles& obstacles = *model.scene.obstacles;
   bodies_->fixture = solids_of(obstacles.fixture);
   bodies_->hand = solids_of(obstacles.hand);
+  bodies_->palm = solids_of(palm_bodies(model));
   bodies_->object = solids_of(object_bodies(model));
   for (const ConvexBody& body : obstacles.hand) {
     bodies_->hand_reach = std::max(bodies_->hand_reach, reach_about_z(body));
@@ -223,12 +224,20 @@ CollisionBodies::~CollisionBodies() = default;
 
 double CollisionBodies::hand_distance(const PlanarPose& X_WH, double enough, double z,
                                       double coarse) const {
-  return bodies_->distance(bodies_->hand, in_space(X_WH, z), enough, coarse);
+  return bodies_->distance(bodies_->hand, in_space(X_WH, z), bodies_->fixture, enough,
+                           coarse);
 }
 
 double CollisionBodies::object_distance(const PlanarPose& X_WO, double enough, double z,
                                         double coarse) const {
-  return bodies_->distance(bodies_->object, in_space(X_WO, z), enough, coarse);
+  return bodies_->distance(bodies_->object, in_space(X_WO, z), bodies_->fixture, enough,
+                           coarse);
+}
+
+double CollisionBodies::palm_distance(const PlanarPose& X_OH, double enough,
+                                      double coarse) const {
+  return bodies_->distance(bodies_->palm, in_space(X_OH, 0.0), bodies_->object, enough,
+                           coarse);
 }
 
 double CollisionBodies::hand_reach() const { return bodies_->hand_reach; }

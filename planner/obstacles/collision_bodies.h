@@ -29,6 +29,11 @@ class CollisionBodies {
   double object_distance(const PlanarPose& X_WO, double enough, double z = 0.0,
                          double coarse = kNever) const;
 
+  /// Least distance of the hand's bodies between the faces (`palm_bodies`) from the
+  /// object, with H at X_OH in it; likewise.
+  double palm_distance(const PlanarPose& X_OH, double enough,
+                       double coarse = kNever) const;
+
   /// How far from their z axes hand and object reach [m].
   double hand_reach() const;
   double object_reach() const;

@@ -116,7 +116,10 @@ std::string limits_fault(const Model& model, const PlannedPush& planned) {
 class CollisionCheck {
  public:
   explicit CollisionCheck(const Model& model)
-      : model_(model), obstacles_(*model.scene.obstacles), object_(object_bodies(model)) {
+      : model_(model),
+        obstacles_(*model.scene.obstacles),
+        palm_(palm_bodies(model)),
+        object_(object_bodies(model)) {
     for (const ConvexBody& body : obstacles_.hand) {
       reach_ = std::max(reach_, reach_about_z(body));
     }
@@ -145,6 +148,7 @@ class CollisionCheck {
             : hits(object_, 0.0, std::abs(rise),
                    [&](double s) { return object(s, 0.0); });
     if (object_hits) return "the object hits an obstacle";
+    if (palm_hits(planned)) return "the object comes too near to a body of the hand";
     for (const double end : {0.0, 1.0}) {
       const std::string when = end == 0.0 ? "approaches" : "retreats";
       if (hits(obstacles_.hand, obstacles_.clearance, obstacles_.approach,
@@ -197,10 +201,18 @@ class CollisionCheck {
   template <class Path>
   bool hits(const std::vector<ConvexBody>& bodies, double clearance, double length,
             const Path& path) const {
+    return hits(bodies, obstacles_.fixture, clearance, length, path);
+  }
+
+  /// The same of others that stand still.
+  template <class Path>
+  static bool hits(const std::vector<ConvexBody>& bodies,
+                   const std::vector<ConvexBody>& others, double clearance, double length,
+                   const Path& path) {
     for (double done = 0.0;;) {
       const double s = length > 0.0 ? done / length : 0.0;
       const double room =
-          distance(bodies, path(s)) - clearance + 2.0 * kClearanceTolerance;
+          distance(bodies, path(s), others) - clearance + 2.0 * kClearanceTolerance;
       if (!(room > kClearanceTolerance)) return true;
       done += room;
       if (done > length) return false;
@@ -214,12 +226,31 @@ class CollisionCheck {
     return hits(object_, 0.0, path.length(), [&](double s) { return X_WO * path.at(s); });
   }
 
-  double distance(const std::vector<ConvexBody>& bodies,
-                  const Eigen::Isometry3d& X_W) const {
+  /// The palm in O; of a prism that rolls, which leaves the pad plane, that in H. A round
+  /// object rolls about its axis.
+  bool palm_hits(const PlannedPush& planned) const {
+    const double clearance = obstacles_.clearance;
+    const auto* roll = std::get_if<Roll>(&planned.push);
+    if (roll && model_.prism) {
+      const double dpsi = planned.end.psi - planned.start.psi;
+      const PrismPath path(model_, contact_of(model_, planned), dpsi);
+      const double length = path.length() + std::abs(roll->travel);
+      return hits(object_, palm_, clearance, length, [&](double s) {
+        return in_space(planned.start.X_HO, s * roll->travel) * path.at(s);
+      });
+    }
+    const double length = roll ? 0.0 : way(planned);
+    return hits(palm_, object_, clearance, length,
+                [&](double s) { return in_space(inverse(pose_at(planned, s)), 0.0); });
+  }
+
+  static double distance(const std::vector<ConvexBody>& bodies,
+                         const Eigen::Isometry3d& X_W,
+                         const std::vector<ConvexBody>& others) {
     double least = std::numeric_limits<double>::infinity();
     for (const ConvexBody& body : bodies) {
       const PlacedBody placed{&body, X_W * pose_of(body)};
-      for (const ConvexBody& fixed : obstacles_.fixture) {
+      for (const ConvexBody& fixed : others) {
         least = tighter(least, separation(placed, {&fixed, pose_of(fixed)}));
       }
     }
@@ -228,7 +259,7 @@ class CollisionCheck {
 
   const Model& model_;
   const Obstacles& obstacles_;
-  std::vector<ConvexBody> object_;
+  std::vector<ConvexBody> palm_, object_;
   double reach_ = 0.0;
 };
 

@@ -16,9 +16,10 @@ inline constexpr double kLimitTolerance = 1e-6;
 /// What a clearance may be short of the one that the scene asks for [m].
 inline constexpr double kClearanceTolerance = 2e-5;
 
-/// Which push first leaves the limits of the scene or comes too near to an obstacle, and
-/// how; empty if none does. The hand's limits hold, and hand and object are clear, while
-/// they approach and retreat, too. A distance is that of a plane found between two bodies
+/// Which push first leaves the limits of the scene, or comes too near to an obstacle, or
+/// brings the object too near to the hand's own bodies (`palm_bodies`), and how; empty if
+/// none does. The hand's limits hold, and hand and object are clear, while they approach
+/// and retreat, too. A distance is that of a plane found between two bodies
 /// (separation.h), and no point of a way is left out: each distance clears the poses
 /// after it up to where the fastest point might touch.
 std::string confinement_fault(const Model& model, const std::vector<PlannedPush>& pushes);

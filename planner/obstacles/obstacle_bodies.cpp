@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/obstacles/separation.h"
 #include "scene/lying_prism.h"
 #include "scene/outline.h"
 #include "scene/polygon_pieces.h"
@@ -46,6 +47,15 @@ struct Radius {
   }
 };
 
+/// Whether a body of the hand has points below both faces of the object. Of a sheet that
+/// is thinner than twice kBeside half is as much.
+bool reaches_between_faces(const ConvexBody& body, double half_thickness) {
+  const PlacedBody placed{&body, pose_of(body)};
+  const double inside = half_thickness - std::min(kBeside, half_thickness);
+  return support(placed, -Vec3::UnitZ()).z() < inside &&
+         support(placed, Vec3::UnitZ()).z() > -inside;
+}
+
 }  // namespace
 
 std::vector<ConvexBody> object_bodies(const Model& model) {
@@ -65,6 +75,14 @@ std::vector<ConvexBody> object_bodies(const Model& model) {
       }
     }
     add_prisms(outline_of(shape), heights.x(), heights.y(), bodies);
+  }
+  return bodies;
+}
+
+std::vector<ConvexBody> palm_bodies(const Model& model) {
+  std::vector<ConvexBody> bodies;
+  for (const ConvexBody& body : model.scene.obstacles.value_or(Obstacles{}).hand) {
+    if (reaches_between_faces(body, model.half_thickness)) bodies.push_back(body);
   }
   return bodies;
 }

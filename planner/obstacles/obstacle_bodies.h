@@ -14,6 +14,16 @@ namespace prehensile {
 /// from a mesh counts as its silhouette over its whole height.
 std::vector<ConvexBody> object_bodies(const Model& model);
 
+/// How far a body of the hand may reach below a face that the pads touch and still lie
+/// beside it [m].
+inline constexpr double kBeside = 1e-4;
+
+/// The bodies of the hand that the held object could meet as it moves between the pads, a
+/// palm for one: those that reach between its faces, past kBeside. All others, fingers
+/// for one, lie beside the faces, where they may touch them, and a motion in the pad
+/// plane brings them no nearer.
+std::vector<ConvexBody> palm_bodies(const Model& model);
+
 /// Pose of a body in its frame.
 Eigen::Isometry3d pose_of(const ConvexBody& body);
 

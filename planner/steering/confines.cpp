@@ -7,6 +7,7 @@
 #include "planner/obstacles/confines_check.h"
 #include "planner/obstacles/obstacle_bodies.h"
 #include "planner/obstacles/placement.h"
+#include "planner/obstacles/separation.h"
 #include "scene/constants.h"
 
 namespace prehensile {
@@ -52,8 +53,43 @@ bool stays_clear(double way, double need, double resolution, const Distance& dis
   }
 }
 
+/// The same of a hand that reaches so far from its z axis, all along a move, with the
+/// object at X_WO. `distance(X_WH, enough, coarse)` as above.
+template <class Distance>
+bool hand_stays_clear(const PlanarPose& X_WO, const Move& move, double reach, double need,
+                      const Distance& distance) {
+  const Vec2 d = move.to.p_OF - move.from.p_OF;
+  const double turn = move.to.theta - move.from.theta;
+  const double way = d.norm() + reach * std::abs(turn);
+  return stays_clear(
+      way, need, kResolution, [&](double done, double enough, double coarse) {
+        const double s = way > 0.0 ? done / way : 0.0;
+        const PlanarPose X_WH =
+            hand_in_world(X_WO, move.from.p_OF + s * d, move.from.theta + s * turn);
+        return distance(X_WH, enough, coarse);
+      });
+}
+
 PlanarPose moved(const PlanarPose& pose, const Vec2& by) {
   return {pose.x + by.x(), pose.y + by.y(), pose.theta};
+}
+
+/// How near palm bodies come to the finger axis, as far along it as the object reaches
+/// [m]; infinity without any.
+double palm_from_axis(const Model& model) {
+  CapsuleShape axis;
+  for (const ConvexBody& body : object_bodies(model)) {
+    for (const Vec3& up : {Vec3(Vec3::UnitZ()), Vec3(-Vec3::UnitZ())}) {
+      const double height = up.dot(support({&body, pose_of(body)}, up));
+      axis.length = std::max(axis.length, 2.0 * height);
+    }
+  }
+  const ConvexBody finger_axis{.shape = axis};
+  double least = kInfinity;
+  for (const ConvexBody& palm : palm_bodies(model)) {
+    least = std::min(least, separation({&finger_axis}, {&palm, pose_of(palm)}));
+  }
+  return least;
 }
 
 bool has_place(const SearchContact& contact) {
@@ -117,6 +153,7 @@ Confines::Confines(const SearchModel& search)
   clearance_ = obstacles.clearance;
   if (!model_.scene.obstacles) return;
   bodies_ = std::make_unique<CollisionBodies>(model_);
+  palm_from_axis_ = palm_from_axis(model_);
   for (const SearchContact& contact : search.contacts) {
     const PushContact& touched = model_.contacts[contact.contact];
     const PlanarPose X_WO = object_at_pusher(model_, touched, contact.place);
@@ -154,16 +191,25 @@ bool Confines::object_collides(const PushContact& contact,
 
 bool Confines::hand_collides_along(const PlanarPose& X_WO,
                                    const Move& move) const noexcept {
-  const Vec2 d = move.to.p_OF - move.from.p_OF;
-  const double turn = move.to.theta - move.from.theta;
-  const double way = d.norm() + bodies_->hand_reach() * std::abs(turn);
-  return !stays_clear(
-      way, clearance_, kResolution, [&](double done, double enough, double coarse) {
-        const double s = way > 0.0 ? done / way : 0.0;
-        const PlanarPose X_WH =
-            hand_in_world(X_WO, move.from.p_OF + s * d, move.from.theta + s * turn);
-        return bodies_->hand_distance(X_WH, enough, 0.0, coarse);
-      });
+  return !hand_stays_clear(X_WO, move, bodies_->hand_reach(), clearance_,
+                           [&](const PlanarPose& X_WH, double enough, double coarse) {
+                             return bodies_->hand_distance(X_WH, enough, 0.0, coarse);
+                           });
+}
+
+/// However the object is turned.
+bool Confines::palm_is_far(const Vec2& p_OF) const noexcept {
+  const double near = clearance_ + kResolution;
+  return p_OF.norm() + bodies_->object_reach() + near <= palm_from_axis_;
+}
+
+/// As seen from O: on the way to the pusher and back it keeps its distance.
+bool Confines::palm_collides_along(const Move& move) const noexcept {
+  if (palm_is_far(move.from.p_OF) && palm_is_far(move.to.p_OF)) return false;
+  return !hand_stays_clear({}, move, bodies_->hand_reach(), clearance_,
+                           [&](const PlanarPose& X_OH, double enough, double coarse) {
+                             return bodies_->palm_distance(X_OH, enough, coarse);
+                           });
 }
 
 bool Confines::hand_collides_away(const PushContact& contact, const PlanarPose& X_WO,
@@ -181,7 +227,7 @@ bool Confines::collides(const SearchModel& search, const Move& move,
   const SearchContact& contact = search.contacts[move.contact];
   const PushContact& touched = model_.contacts[contact.contact];
   return (!has_place(contact) && object_collides(touched, X_WO)) ||
-         hand_collides_along(X_WO, move) ||
+         palm_collides_along(move) || hand_collides_along(X_WO, move) ||
          hand_collides_away(touched, X_WO, move.from) ||
          hand_collides_away(touched, X_WO, move.to);
 }
@@ -208,11 +254,14 @@ bool Confines::is_blocked(const SearchModel& search, int contact, const Vec2& p_
   const double high = std::min(theta_.high, low + kTurn);
   const std::int64_t before = bodies_->queries();
   const double near = clearance_ + kResolution;
+  const bool far = palm_is_far(p_OF);
   bool blocked = true;
   for (int i = 0; i < kBlockedTurns && blocked; ++i) {
     const double theta = std::lerp(low, high, (i + 0.5) / kBlockedTurns);
     const PlanarPose X_WH = hand_in_world(X_WO, p_OF, theta);
-    blocked = bodies_->hand_distance(X_WH, near, 0.0, near) < near;
+    const PlanarPose X_OH = hand_in_world({}, p_OF, theta);
+    blocked = bodies_->hand_distance(X_WH, near, 0.0, near) < near ||
+              (!far && bodies_->palm_distance(X_OH, near, near) < near);
   }
   work.other += kWorkOfQuery * (bodies_->queries() - before);
   return blocked;

@@ -57,8 +57,9 @@ class Confines {
   std::optional<PushConstraint> broken_between(int contact, const Vec2& from_p_OF,
                                                const Vec2& to_p_OF) const noexcept;
 
-  /// Whether the hand would hit the fixture at this place for each of some turns within
-  /// the limits: not worth a look. False for point pushers, whose place is open.
+  /// Whether the hand would hit the fixture or the object at this place for each of some
+  /// turns within the limits: not worth a look. False for point pushers, whose place is
+  /// open.
   bool is_blocked(const SearchModel& search, int contact, const Vec2& p_OF,
                   Work& work) const noexcept;
 
@@ -69,6 +70,8 @@ class Confines {
                 const PlanarPose& X_WO) const noexcept;
   bool object_collides(const PushContact& contact, const PlanarPose& X_WO) const noexcept;
   bool hand_collides_along(const PlanarPose& X_WO, const Move& move) const noexcept;
+  bool palm_is_far(const Vec2& p_OF) const noexcept;
+  bool palm_collides_along(const Move& move) const noexcept;
   bool hand_collides_away(const PushContact& contact, const PlanarPose& X_WO,
                           const FlatState& state) const noexcept;
 
@@ -79,6 +82,7 @@ class Confines {
   TurnWindow hand_angle_;
   double approach_ = 0.0;
   double clearance_ = 0.0;
+  double palm_from_axis_ = 0.0;
   std::unique_ptr<CollisionBodies> bodies_;  // null without obstacles
   std::vector<char> object_collides_;        // by search contact; never of a point pusher
 };

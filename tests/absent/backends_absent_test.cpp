@@ -60,10 +60,12 @@ TEST(BackendsAbsent, ObstaclesAreRefusedAndPlansStillChecked) {
   Scene scene = published_square(0);
   const Plan blind = plan_regrasp(prepare(scene));
   ASSERT_TRUE(blind.usable());
-  scene.obstacles = Obstacles{.fixture = {{.name = "ball",
-                                           .shape = SphereShape{0.01},
-                                           .position = {1.0, 0.0, 0.0}}},
-                              .hand = {{.name = "palm", .shape = SphereShape{0.02}}}};
+  scene.obstacles = Obstacles{
+      .fixture = {{.name = "ball",
+                   .shape = SphereShape{0.01},
+                   .position = {1.0, 0.0, 0.0}}},
+      .hand = {
+          {.name = "knuckle", .shape = SphereShape{0.02}, .position = {0.0, 0.0, 0.05}}}};
   const Model model = prepare(scene);
   const Plan plan = plan_regrasp(model);
   EXPECT_EQ(plan.status, PlanStatus::kUnsupported);

@@ -230,6 +230,76 @@ TEST_F(OneBody, ThePusherItselfIsNoObstacle) {
   EXPECT_FALSE(plan_regrasp(prepare(scene_), nominal(100'000)).usable());
 }
 
+/// A square with a palm at a random side, clear of it by 2 mm at start and goal.
+std::optional<Scene> with_palm_at_hand(int i) {
+  testing::Random random(static_cast<std::uint64_t>(i));
+  Scene scene = random_among_walls(true, RegraspRange::kWide, false, 45, i);
+  const Goal& goal = *scene.goal;
+  for (int draw = 0; draw < 100; ++draw) {
+    const Vec2 p = random.in(0.06, 0.09) * random.direction();
+    const ConvexBody palm{.name = "palm",
+                          .shape = BoxShape{{0.02, 0.03, 0.07}},
+                          .position = {p.x(), p.y(), 0.0},
+                          .turn = random.in(-1.0, 1.0)};
+    scene.obstacles = Obstacles{.hand = {palm}};
+    const Model model = prepare(scene);
+    const CollisionBodies bodies(model);
+    const PlanarPose X_HG{*goal.x, *goal.y, *goal.theta};
+    if (bodies.palm_distance(inverse(scene.start.X_HO), 1.0) > 0.003 &&
+        bodies.palm_distance(inverse(X_HG), 1.0) > 0.003) {
+      return scene;
+    }
+  }
+  return std::nullopt;
+}
+
+/// How many points of the palm are in the object, at many poses of a plan.
+int palm_points_inside(const Model& model, const Plan& plan) {
+  const std::vector<Vec3> palm = points_of(model.scene.obstacles->hand.front());
+  int inside = 0;
+  for (const PlannedPush& planned : plan.pushes) {
+    for (int k = 0; k <= 100; ++k) {
+      const PlanarPose X_HO =
+          pusher_pose(as_linear(planned.push), planned.start.X_HO, k / 100.0);
+      for (const Vec3& p : palm) {
+        const Vec2 p_O = transform(inverse(X_HO), {p.x(), p.y()});
+        inside += depth_inside(model.outline, p_O) > 0.0;
+      }
+    }
+  }
+  return inside;
+}
+
+/// Plans go round the palm where the cheapest way would be through it, which the check of
+/// plans refuses.
+TEST(ConfinesCheck, NoPlanDrivesTheObjectIntoThePalm) {
+  if (!collisions_are_built()) GTEST_SKIP() << "built without FCL";
+  int solved = 0;
+  int would_hit = 0;
+  for (int i = 0; i < 15; ++i) {
+    const auto scene = with_palm_at_hand(i);
+    if (!scene) continue;
+    const Model model = prepare(*scene);
+    Scene blind = *scene;
+    blind.obstacles.reset();
+    const Plan through = plan_regrasp(prepare(blind), nominal());
+    if (palm_points_inside(model, through) == 0) continue;
+    ++would_hit;
+    const Replay refused = replay(model, through);
+    EXPECT_FALSE(refused.agrees) << i;
+    EXPECT_NE(refused.why.find("too near to a body of the hand"), std::string::npos)
+        << refused.why;
+    const Plan plan = plan_regrasp(model, nominal());
+    if (!plan.usable()) continue;
+    ++solved;
+    EXPECT_EQ(palm_points_inside(model, plan), 0) << i;
+    EXPECT_TRUE(replay(model, plan).agrees) << i << replay(model, plan).why;
+  }
+  std::printf("%d plans would go through the palm, %d go round it\n", would_hit, solved);
+  EXPECT_GE(would_hit, 3);
+  EXPECT_GE(solved, 2);
+}
+
 /// Limits that leave out a few degrees: a hand that turns past them leaves them, however
 /// short the gap.
 TEST(ConfinesCheck, AHandTurnsOverNoGapInItsLimits) {

@@ -6,7 +6,10 @@
 #include "planner/bounds/bounds.h"
 #include "planner/catalogue.h"
 #include "planner/checks/replay.h"
+#include "planner/obstacles/collision_bodies.h"
 #include "planner/obstacles/confines_check.h"
+#include "planner/obstacles/obstacle_bodies.h"
+#include "planner/obstacles/separation.h"
 #include "problems/confined_regrasps.h"
 #include "tests/planner/planner_cases.h"
 #include "tests/support/random.h"
@@ -265,6 +268,60 @@ TEST(Confines, ReplayRefusesAPlanBeyondLimits) {
   EXPECT_FALSE(again.agrees);
   EXPECT_NE(again.why.find("angle of the object leaves its limits"), std::string::npos)
       << again.why;
+}
+
+/// Distance of the hand's only body from a square between the pads, the least at many
+/// poses along a move.
+double palm_distance_along(const Model& model, const Move& move) {
+  const ConvexBody& palm = model.scene.obstacles->hand.front();
+  const std::vector<ConvexBody> square = object_bodies(model);
+  double least = 1.0;
+  for (int i = 0; i <= 400; ++i) {
+    const double s = i / 400.0;
+    const Vec2 p_OF = move.from.p_OF + s * (move.to.p_OF - move.from.p_OF);
+    const double theta = std::lerp(move.from.theta, move.to.theta, s);
+    const PlanarPose X_HO = pose_from_finger(p_OF, theta);
+    least = std::min(least, separation({&palm, pose_of(palm)},
+                                       {&square.front(), in_space(X_HO, 0.0)}));
+  }
+  return least;
+}
+
+/// The law of a palm: a move that is free keeps its clearance, and one that is not comes
+/// as near as that, but for a resolution.
+TEST(Confines, NoMoveBringsTheObjectIntoThePalm) {
+  if (!collisions_are_built()) GTEST_SKIP() << "built without FCL";
+  Random random(9);
+  int free = 0;
+  int hit = 0;
+  for (int i = 0; i < 300; ++i) {
+    Scene scene = testing::walled_square();
+    const double away = random.in(0.04, 0.12);
+    const ConvexBody palm{.name = "palm",
+                          .shape = BoxShape{{0.02, random.log_in(0.001, 0.05), 0.07}},
+                          .position = {away, 0.0, 0.0},
+                          .turn = random.in(-1.0, 1.0)};
+    scene.obstacles = Obstacles{.clearance = random.in(0.0, 0.004), .hand = {palm}};
+    const Model model = prepare(scene);
+    const SearchModel search = prepare_search(model, Margin::none());
+    const auto state = [&] {
+      return FlatState{random.in_box(0.03, 0.03), random.in(-1.5, 1.5)};
+    };
+    const Move move{0, state(), state()};
+    Work work;
+    const auto broken = search.confines->broken_by(search, move, work);
+    const double room = palm_distance_along(model, move) - scene.obstacles->clearance;
+    if (broken) {
+      EXPECT_EQ(*broken, PushConstraint::kCollision);
+      EXPECT_LT(room, 5e-4) << i;
+      ++hit;
+    } else {
+      EXPECT_GT(room, 0.0) << i;
+      ++free;
+    }
+  }
+  EXPECT_GT(free, 50);
+  EXPECT_GT(hit, 50);
 }
 
 TEST(Confines, AdviceNamesTheLimit) {

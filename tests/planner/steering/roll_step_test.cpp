@@ -8,6 +8,7 @@
 
 #include "planner/checks/plan_trial.h"
 #include "planner/checks/replay.h"
+#include "planner/obstacles/confines_check.h"
 #include "planner/planner.h"
 #include "scene/constants.h"
 #include "tests/planner/planner_cases.h"
@@ -333,6 +334,29 @@ TEST(RollStep, PrismsRollWhereTheirWayOverTheirEdgesIsClear) {
   EXPECT_EQ(status_with(ball_above(0.0422)), PlanStatus::kBudgetSpent);
   EXPECT_EQ(status_with(wall_at(0.0453)), PlanStatus::kReachedGoal);
   EXPECT_EQ(status_with(wall_at(0.0448)), PlanStatus::kBudgetSpent);
+}
+
+/// A ball of the hand over the edge that the bar tips about half-way, where the hand has
+/// moved along with it: from 26 mm above the sheet it sees an edge at 42.4 mm.
+TEST(RollStep, PrismsRollClearOfThePalm) {
+  Scene scene = bar_on_sheet();
+  scene.goal = testing::goal_at({0.0, 0.008}, 0.0);
+  scene.goal->psi = 0.5 * kPi;
+  const auto model_with = [&](double height) {
+    ConvexBody ball{.name = "ball", .shape = SphereShape{0.005}};
+    ball.position = {0.03, height + 0.005 - 0.026, 0.0};
+    scene.obstacles = Obstacles{.clearance = 0.001, .approach = 0.002, .hand = {ball}};
+    return prepare(scene);
+  };
+  const Model model = model_with(0.0436);
+  const Plan plan = plan_regrasp(model);
+  ASSERT_EQ(plan.status, PlanStatus::kReachedGoal) << plan.message;
+  EXPECT_TRUE(replay(model, plan).agrees) << replay(model, plan).why;
+  const PlannedPush& first = plan.pushes.front();
+  ASSERT_TRUE(std::holds_alternative<Roll>(first.push));
+  EXPECT_EQ(confinement_fault(model, {first}), "");
+  EXPECT_NE(confinement_fault(model_with(0.0432), {first}).find("a body of the hand"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -49,6 +49,7 @@ class BlockedHand {
       : model_(model),
         obstacles_(*model.scene.obstacles),
         hand_(obstacles_.hand),
+        palm_(palm_bodies(model)),
         object_(object_bodies(model)) {
     for (const ConvexBody& fixed : obstacles_.fixture) {
       ConvexBody centred = fixed;
@@ -58,12 +59,43 @@ class BlockedHand {
   }
 
   bool blocks_all_contacts(const Grasps& grasps) {
+    if (palm_blocks(grasps)) return true;
+    boxes_ = 0;
     return std::ranges::all_of(model_.contacts, [&](const PushContact& contact) {
       return blocks(contact, grasps, {0.0, farthest_place(contact)});
     });
   }
 
  private:
+  /// Whether the object is nearer to the palm than it may be at all grasps: no matter
+  /// which contact.
+  bool palm_blocks(const Grasps& grasps) {
+    if (++boxes_ > kMostBoxes) return false;
+    const double turned = grasps.half_turn * object_.reach;
+    const double depth = obstacles_.clearance - kRoom - palm_closeness(grasps);
+    if (depth > turned + grasps.slack) return true;
+    if (!(depth > grasps.slack) || turned < kRoom) return false;
+    Grasps half = grasps;
+    half.half_turn *= 0.5;
+    half.theta -= half.half_turn;
+    if (!palm_blocks(half)) return false;
+    half.theta += 2.0 * half.half_turn;
+    return palm_blocks(half);
+  }
+
+  /// At the middle of a box.
+  double palm_closeness(const Grasps& grasps) const {
+    const Eigen::Isometry3d X_HO = in_space({grasps.x, grasps.y, grasps.theta}, 0.0);
+    double least = std::numeric_limits<double>::infinity();
+    for (const ConvexBody& body : object_.bodies) {
+      const PlacedBody placed{&body, X_HO * pose_of(body)};
+      for (const ConvexBody& palm : palm_.bodies) {
+        least = std::min(least, closeness(placed, {&palm, pose_of(palm)}));
+      }
+    }
+    return least;
+  }
+
   bool blocks(const PushContact& contact, const Grasps& grasps, const Places& places) {
     if (++boxes_ > kMostBoxes) return false;
     const double turned =
@@ -126,7 +158,7 @@ class BlockedHand {
 
   const Model& model_;
   const Obstacles& obstacles_;
-  Group hand_, object_;
+  Group hand_, palm_, object_;
   std::vector<double> radii_;  // [m] of balls around the bodies of the fixture
   int boxes_ = 0;
 };

@@ -34,10 +34,13 @@ std::string sentence(Proof::Kind kind) {
              "contains the start and not the goal";
     case Proof::Kind::kStartBlocked:
       return "at the start obstacles are in the way of every push: of the hand or the "
-             "object while it pushes there or approaches";
+             "object while it pushes there or approaches, or the hand's own body in that "
+             "of the object";
     case Proof::Kind::kGoalBlocked:
       return "at the goal obstacles are in the way of every push: of the hand or the "
-             "object while it pushes there or retreats";
+             "object while it pushes there or retreats, or the hand's own body in that "
+             "of "
+             "the object";
     case Proof::Kind::kTurn:
       return "sticking pushes turn the object too little, or too much, on all ways from "
              "the start to the goal";

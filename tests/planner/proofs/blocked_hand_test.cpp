@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "planner/obstacles/collision_bodies.h"
 #include "planner/obstacles/confines_check.h"
 #include "planner/obstacles/placement.h"
 #include "planner/search/push_search.h"
@@ -117,6 +118,53 @@ TEST(BlockedHand, IsAProof) {
     EXPECT_FALSE(verify(without, plan.proof, &why));
     EXPECT_FALSE(why.empty());
   }
+}
+
+/// A palm that is too near to the object at the start or at all of the goal is in the way
+/// of every push there; the check of plans agrees, and proofs hold.
+TEST(BlockedHand, ThePalmBlocksWhateverPushes) {
+  Random random(11);
+  int at_start = 0;
+  int at_goal = 0;
+  int nowhere = 0;
+  for (int i = 0; i < 60; ++i) {
+    Scene scene = random_among_walls(true, RegraspRange::kWide, false, 46, i);
+    const Vec2 p = random.in(0.05, 0.12) * random.direction();
+    scene.obstacles = Obstacles{.hand = {{.name = "palm",
+                                          .shape = BoxShape{{0.02, 0.03, 0.07}},
+                                          .position = {p.x(), p.y(), 0.0},
+                                          .turn = random.in(-1.0, 1.0)}}};
+    const Model model = prepare(scene);
+    const Goal& goal = *scene.goal;
+    const bool start_is_blocked = is_blocked_at_start(model);
+    const bool goal_is_blocked = is_blocked_at_goal(model);
+    at_start += start_is_blocked;
+    at_goal += goal_is_blocked;
+    nowhere += !start_is_blocked && !goal_is_blocked;
+    for (int c = 0; c < static_cast<int>(model.contacts.size()); ++c) {
+      if (start_is_blocked) {
+        EXPECT_FALSE(is_free(model, c, 0.0, scene.start.X_HO, true)) << i;
+      }
+      for (int k = 0; k < 20 && goal_is_blocked; ++k) {
+        const Vec2 off = random.in_disc(goal.position_tolerance);
+        const double turn =
+            random.in(-1.0, 1.0) * goal.position_tolerance / goal.characteristic_length;
+        const PlanarPose X_HO{*goal.x + off.x(), *goal.y + off.y(), *goal.theta + turn};
+        if (!reaches(goal, {X_HO, 0.0})) continue;
+        EXPECT_FALSE(is_free(model, c, 0.0, X_HO, false)) << i;
+      }
+    }
+    if (!start_is_blocked || i > 20) continue;
+    const Plan plan = plan_regrasp(model, nominal());
+    if (!collisions_are_built()) continue;
+    EXPECT_EQ(plan.status, PlanStatus::kInfeasible) << i;
+    EXPECT_TRUE(verify(model, plan.proof)) << i;
+  }
+  std::printf("blocked at the start %d, at the goal %d, at none %d of 60\n", at_start,
+              at_goal, nowhere);
+  EXPECT_GT(at_start, 5);
+  EXPECT_GT(at_goal, 5);
+  EXPECT_GT(nowhere, 5);
 }
 
 /// A goal that leaves a coordinate free, or bodies far away, prove nothing.

@@ -133,7 +133,8 @@ void visit_body(Fields& fields, ConvexBody& body) {
 template <typename Fields>
 void visit_obstacles(Fields& fields, Obstacles& obstacles) {
   fields.number("clearance", obstacles.clearance, {0.0, 1.0, "m"}, kOptional,
-                "Least distance of the hand from the fixture.");
+                "Least distance of the hand from the fixture, and of its bodies between "
+                "the object's faces from the object.");
   fields.number("approach", obstacles.approach, {1e-4, 1.0, "m"}, kOptional,
                 "Way along the pusher's normal that is free before and after a push.");
   constexpr Length kBodies{0, 64};
@@ -141,7 +142,8 @@ void visit_obstacles(Fields& fields, Obstacles& obstacles) {
               "Bodies that stand still in W.",
               [](auto& f, ConvexBody& body) { visit_body(f, body); });
   fields.list("hand", obstacles.hand, kBodies, kOptional,
-              "Bodies of fingers and hand, in H.",
+              "Bodies of fingers and hand, in H. The object keeps clear of those that "
+              "reach between its faces, a palm for one.",
               [](auto& f, ConvexBody& body) { visit_body(f, body); });
 }
 

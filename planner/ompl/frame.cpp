@@ -27,9 +27,10 @@ constexpr std::int64_t kLeastImprovement = 2'000;
 
 /// So many questions whether to end, without a single propagation between them, mean that
 /// the planner will never push anything. (Some look through thousands of edges between
-/// two motions.) Nor may it ask more often than this for each propagation of its budget:
-/// AIT* may search for milliseconds before it tries one motion.
-constexpr std::int64_t kMostIdleTurns = 100'000;
+/// two motions, FMT* draws up to a hundred thousand states before its first.) Nor may it
+/// ask more often than this for each propagation of its budget: AIT* may search for
+/// milliseconds before it tries one motion.
+constexpr std::int64_t kMostIdleTurns = 500'000;
 constexpr std::int64_t kTurnsPerPropagation = 2;
 constexpr std::int64_t kFreeTurns = 1000;
 constexpr std::int64_t kMostBudget = std::int64_t{1} << 60;
@@ -69,6 +70,9 @@ class Ending {
     return work.spent() || is_stopped() || is_late() || is_improved() || is_idle();
   }
 
+  /// Ended because it went on without pushing anything.
+  bool was_idle() const { return idle_; }
+
   bool is_stopped() const { return options_.stop != nullptr && options_.stop->load(); }
 
  private:
@@ -98,8 +102,9 @@ class Ending {
       idle_turns_ = 0;
       states_before_ = states;
     }
-    return ++idle_turns_ > kMostIdleTurns || ++turns_ > most_turns_ ||
-           (first_ >= 0 && states - states_before_ > kMostIdleStates);
+    idle_ = ++idle_turns_ > kMostIdleTurns || ++turns_ > most_turns_ ||
+            (first_ >= 0 && states - states_before_ > kMostIdleStates);
+    return idle_;
   }
 
   const PushProblem& problem_;
@@ -113,6 +118,7 @@ class Ending {
   std::int64_t seen_ = -1;
   std::int64_t idle_turns_ = 0;
   std::int64_t states_before_ = 0;
+  bool idle_ = false;
 };
 
 Plan run_own(const SearchModel& search, const Grasp& start, const Goal& goal,
@@ -134,9 +140,11 @@ void explain(const std::string& why, PlanStatus status, Plan& plan) {
 void conclude(const PushProblem& problem, const Ending& ending, Plan& plan) {
   const ob::ProblemDefinition& definition = *problem.definition();
   if (!definition.hasExactSolution()) {
-    return explain(
-        "no exact solution after " + std::to_string(plan.propagations) + " propagations",
-        ending.is_stopped() ? PlanStatus::kStopped : PlanStatus::kBudgetSpent, plan);
+    const std::string why = ending.was_idle() ? ", and it tried no more" : "";
+    return explain("no exact solution after " + std::to_string(plan.propagations) +
+                       " propagations" + why,
+                   ending.is_stopped() ? PlanStatus::kStopped : PlanStatus::kBudgetSpent,
+                   plan);
   }
   auto pushes = pushes_along(problem, *definition.getSolutionPath());
   if (!pushes) {

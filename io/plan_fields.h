@@ -82,6 +82,9 @@ struct WrittenExplanation {
 };
 
 struct WrittenPlan {
+  /// Where a file does not say how much weight its margin covers, it covers any.
+  WrittenPlan() { plan.margin.force = std::numeric_limits<double>::infinity(); }
+
   std::string scene;
   std::string scene_digest;
   Plan plan;  // its pushes and proof are made from the two below

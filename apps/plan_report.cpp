@@ -118,6 +118,9 @@ std::string pose_text(const Model& model, const Grasp& grasp) {
   return out;
 }
 
+/// Bound of plans to the goal itself over that of all others, from which it is printed.
+constexpr double kWorthSaying = 1.1;
+
 std::string describe(const Model& model, const Plan& plan) {
   std::string out = model.scene.name + ": " + std::string(name(plan.status)) + '\n';
   const bool is_said_below = plan.message == plan.proof.text;
@@ -134,7 +137,7 @@ std::string describe(const Model& model, const Plan& plan) {
         "cost J = %.3f (%g placements, travel %.1f mm); lower bound %.3f, gap %.1f %%",
         plan.cost, plan.placements, to_mm(plan.travel), plan.lower_bound,
         100.0 * plan.gap());
-    if (plan.bound_at_goal) {
+    if (plan.bound_at_goal && *plan.bound_at_goal >= kWorthSaying * plan.lower_bound) {
       out += text("; to the goal itself %.3f, gap %.1f %%", *plan.bound_at_goal,
                   100.0 * plan.gap_to(*plan.bound_at_goal));
     }

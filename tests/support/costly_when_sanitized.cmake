@@ -28,6 +28,7 @@ set(costly_when_sanitized
   HoldingCheck.RefusesWayPointsThatAreNotHeld
   HoldingCheck.WayPointsAreHeldAllOverTheMargin
   Improve.IsNeverWorse
+  Improve.OthersCarryOn
   LocalLaw.OfAnyShapeDeniesNoInstantThatSticks
   LoopSearch.FindsWhatTurnsLittleAtATime
   LoopSearch.KeepsToLimitsOfTheAngle
@@ -37,6 +38,7 @@ set(costly_when_sanitized
   MeetEnd.DividesWhatOnePushDoesNotFollow
   MeetEnd.ErrorsDoNotAddUp
   MeetEnd.PlansByPointsAreReplayed
+  MemberMargin.PlansWithAMarginSurviveTheBox
   OmplDeterminism.SameSeedSamePlanInFreshProcesses
   OmplDeterminism.SameSeedSamePlanInOneProcess
   OmplDeterminism.SeedsMatterToRandomPlannersOnly
@@ -51,7 +53,6 @@ set(costly_when_sanitized
   Planner.SolvesConstructedCans
   Planner.SolvesConstructedTees
   Planner.WithoutTheHelpOfGravityPushesStickWithoutGravity
-  MemberMargin.PlansWithAMarginSurviveTheBox
   ProblemList.ProblemsAreSoundAndTheSameEachTime
   Progress.TellsMoreAndMoreAndChangesNothing
   Proofs.GoalBesideTheMiddleLineOfACan
@@ -61,12 +62,15 @@ set(costly_when_sanitized
   PushEvents.WindingPushesGoOnToTheirEnd
   Reference.ConvergesToTheExactSolverWithGenerators
   Repair.MakesPushesStickThatSlipWithinTheMargin
-  RobustPlan.EndsAtTheGoalInMostDraws
   RobustPlan.ANominalPlanNeedNotWaitForTheWholeBudget
+  RobustPlan.EndsAtTheGoalInMostDraws
+  RobustPlan.EndsBesideTheGoalWhereAskedTo
   RobustPlan.SaysSoWhereNoPlanSurvivesTheMargin
+  RollStep.PrismsRollWhereTheirWayOverTheirEdgesIsClear
   RunSuite.JobsDoNotChangeResults
   RunSuite.OneRunAgainIsTheSameRow
   RunSuite.ShardsMakeTheWhole
+  ScatteredPush.FindsAPushToAGoalThatLeavesThatMuchFree
   Shorten.EndsWithItsBudget
   Shorten.ManyPushesBecomeFew
   SpaceCone.EdgesAreWhereInstantsChange

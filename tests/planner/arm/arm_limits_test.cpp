@@ -66,7 +66,7 @@ Vec2 greatest_rates(const std::vector<ArmSample>& s, const ArmLimits& limits) {
 TEST(ArmLimits, NeitherHandNorToolExceedsTheLimits) {
   Random random(17);
   Vec2 most = Vec2::Zero();
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < 80; ++i) {
     Scene scene = published_tee(i % 50);
     scene.gripper.tool.p_HT = {random.in(-0.4, 0.4), random.in(-0.4, 0.4), 0.1};
     const Model model = prepare(scene);

@@ -199,7 +199,12 @@ void keep_better(const Model& model, Plan other, Plan& plan) {
   if (more > 0.0 || (more == 0.0 && other.cost < plan.cost)) plan = std::move(other);
 }
 
-bool has_gap(const Model& model, const Plan& plan) {
+/// Whether it survives what was asked for.
+bool is_whole(const Plan& plan) {
+  return plan.promise != Promise::kNominalOnly && plan.promise != Promise::kPartOfMargin;
+}
+
+bool leaves_gap(const Model& model, const Plan& plan) {
   const Goal goal = goal_within_limits(model.scene);
   const BoundOptions of_plan{.margin = plan.margin};
   return plan.cost >
@@ -215,7 +220,7 @@ void search_by_others(const Model& model, const PlanOptions& options,
   for (std::size_t i = 0; i < kOthers.size(); ++i) {
     auto rest = with_time_left(options, begin);
     work.budget = whole;
-    if (!rest || Limits(*rest, work).reached() || !has_gap(model, plan)) break;
+    if (!rest || Limits(*rest, work).reached() || !leaves_gap(model, plan)) break;
     rest->planner = kOthers[i];
     rest->settings = {};
     if (!planner_fault(rest->planner, {}).empty()) continue;
@@ -224,8 +229,11 @@ void search_by_others(const Model& model, const PlanOptions& options,
     work.budget = work.done() + std::min(kWorkOfOthers, share_of_left(work, 1.0 / left));
     Found found;
     Plan other = search_and_check(model, *rest, plan.margin, work, found);
+    if (!other.usable()) continue;
     other.promise = plan.promise;
-    keep_better(model, std::move(other), plan);
+    other.message = is_whole(plan) ? caveat_of(model, other) : plan.message;
+    account(model, other);
+    if (other.cost < plan.cost) keep_better(model, std::move(other), plan);
   }
   work.budget = whole;
 }
@@ -244,9 +252,8 @@ Plan search_on(const Model& model, const PlanOptions& options, Work& work) {
   auto rest = with_time_left(options, begin);
   if (!rest) return plan;
   rest->time_limit *= kShareOfOwn;
-  const bool is_whole = plan.promise == options.promise;
-  rest->nominal_if_needed = options.nominal_if_needed && !is_whole;
-  rest->prove = options.prove && !is_whole;
+  rest->nominal_if_needed = options.nominal_if_needed && !is_whole(plan);
+  rest->prove = options.prove && !is_whole(plan);
   keep_better(model, search_with_and_without(model, *rest, work), plan);
   search_by_others(model, options, begin, work, plan);
   return plan;

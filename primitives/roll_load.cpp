@@ -43,6 +43,7 @@ std::vector<RollLoad> roll_loads(const Model& model, const Grasp& start,
   std::vector<Sample> trace;
   if (!apply(model, start, roll, {}, &trace).completed()) return {};
   std::vector<RollLoad> loads;
+  loads.reserve(trace.size());
   for (const Sample& sample : trace) loads.push_back(load_of(sample));
   if (model.prism) {
     const PrismRoll prism(model, start, roll);

@@ -183,9 +183,11 @@ Plan search_with_and_without(const Model& model, const PlanOptions& options, Wor
 }
 
 /// Planners that carry on where ours has ended and leaves a gap, the quickest first, and
-/// the propagations that each may make.
+/// the work that each may do: propagations, each with many queries of collisions among
+/// obstacles.
 constexpr std::array kOthers = {"two-trees", "random-shooting", "geometric::RRTstar"};
 constexpr std::int64_t kWorkOfOthers = 200'000;
+constexpr std::int64_t kWorkAmongObstacles = 4'000'000;
 
 /// Of the time that is left, for ours.
 constexpr double kShareOfOwn = 0.5;
@@ -217,6 +219,7 @@ void search_by_others(const Model& model, const PlanOptions& options,
                       std::chrono::steady_clock::time_point begin, Work& work,
                       Plan& plan) {
   const std::int64_t whole = work.budget;
+  const std::int64_t most = model.scene.obstacles ? kWorkAmongObstacles : kWorkOfOthers;
   for (std::size_t i = 0; i < kOthers.size(); ++i) {
     auto rest = with_time_left(options, begin);
     work.budget = whole;
@@ -226,7 +229,7 @@ void search_by_others(const Model& model, const PlanOptions& options,
     if (!planner_fault(rest->planner, {}).empty()) continue;
     const auto left = static_cast<double>(kOthers.size() - i);
     rest->time_limit /= left;
-    work.budget = work.done() + std::min(kWorkOfOthers, share_of_left(work, 1.0 / left));
+    work.budget = work.done() + std::min(most, share_of_left(work, 1.0 / left));
     Found found;
     Plan other = search_and_check(model, *rest, plan.margin, work, found);
     if (!other.usable()) continue;

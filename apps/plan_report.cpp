@@ -7,6 +7,9 @@
 namespace prehensile::apps {
 namespace {
 
+/// Bound of plans to the goal itself over that of all others, from which it is printed.
+constexpr double kWorthSaying = 1.1;
+
 /// Direction of a push measured from the pusher's normal, positive towards t.
 double direction_from_normal(const PushContact& contact, const Vec2& e) {
   return std::atan2(e.dot(contact.t), e.dot(contact.n));
@@ -117,9 +120,6 @@ std::string pose_text(const Model& model, const Grasp& grasp) {
   }
   return out;
 }
-
-/// Bound of plans to the goal itself over that of all others, from which it is printed.
-constexpr double kWorthSaying = 1.1;
 
 std::string describe(const Model& model, const Plan& plan) {
   std::string out = model.scene.name + ": " + std::string(name(plan.status)) + '\n';

@@ -3,9 +3,7 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -82,9 +80,6 @@ struct WrittenExplanation {
 };
 
 struct WrittenPlan {
-  /// Where a file does not say how much weight its margin covers, it covers any.
-  WrittenPlan() { plan.margin.force = std::numeric_limits<double>::infinity(); }
-
   std::string scene;
   std::string scene_digest;
   Plan plan;  // its pushes and proof are made from the two below
@@ -154,21 +149,12 @@ void if_positive(Fields& fields, const char* key, double& value, const Bounds& b
   value = written.value_or(0.0);
 }
 
-/// Written where it is finite.
-template <typename Fields>
-void if_finite(Fields& fields, const char* key, double& value, const Bounds& bounds,
-               const char* doc) {
-  std::optional<double> written;
-  if (std::isfinite(value)) written = value;
-  fields.number(key, written, bounds, doc);
-  value = written.value_or(std::numeric_limits<double>::infinity());
-}
-
 template <typename Fields>
 void visit_margin(Fields& fields, Margin& margin) {
   fields.number("friction", margin.friction, kShares, kRequired, "Of the pusher.");
-  if_finite(fields, "force", margin.force, {0.0, 1e300, ""},
-            "Of weight over grip. Absent: without end, as the grip may vanish.");
+  fields.measured("force", margin.force, {0.0, 1e12, ""},
+                  "Of weight over grip. null: the grip may vanish, which no plan "
+                  "survives.");
   fields.number("torque_radius", margin.torque_radius, kShares, kRequired,
                 "Of the pads.");
   fields.number("place", margin.place, kDistances, kRequired, "Of the pusher.");

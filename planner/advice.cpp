@@ -44,7 +44,7 @@ class Adviser {
     options_.settings = {};
     begin_ = std::chrono::steady_clock::now() -
              std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                 std::chrono::duration<double>(plan.seconds));
+                 std::chrono::duration<double>(std::fmax(0.0, plan.seconds)));
     options_.margin = options.margin.value_or(usual_margin(model));
   }
 

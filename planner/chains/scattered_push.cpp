@@ -15,7 +15,7 @@ std::optional<Move> scattered_push(const SearchModel& search, const FlatState& s
                                    const Goal& goal, double to_beat,
                                    Work& work) noexcept {
   std::optional<Move> best;
-  if (goal.x && goal.y && goal.theta) return best;  // most goals: no time for them
+  if (goal.x && goal.y && goal.theta) return best;
   const auto look = [&](const Scatter& scatter) {
     const GoalPlaces places =
         scattered_places(*search.model, goal, start, scatter, search.margin);

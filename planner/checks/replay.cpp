@@ -123,9 +123,9 @@ ReplayedPush replay_push(const Model& model, const Margin& margin, const Grasp& 
 }
 
 bool margin_is_sound(const Margin& margin) {
-  return margin.friction >= 0.0 && margin.force >= 0.0 && margin.torque_radius >= 0.0 &&
-         margin.place >= 0.0 && margin.centre_of_mass >= 0.0 && margin.grasp >= 0.0 &&
-         margin.tilt >= 0.0;
+  return margin.friction >= 0.0 && margin.force >= 0.0 && std::isfinite(margin.force) &&
+         margin.torque_radius >= 0.0 && margin.place >= 0.0 &&
+         margin.centre_of_mass >= 0.0 && margin.grasp >= 0.0 && margin.tilt >= 0.0;
 }
 
 /// Whether one box lies within another.

@@ -1,6 +1,7 @@
 #include "planner/checks/replay.h"
 
 #include <functional>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -62,6 +63,9 @@ TEST_F(ReplayTest, RejectsTamperedPlans) {
                   [](Plan& plan) { plan.margin = plan.margin.scaled(9.0); });
   expect_rejected("promise of a scene that states nothing",
                   [](Plan& plan) { plan.promise = Promise::kScene; });
+  expect_rejected("margin without end", [](Plan& plan) {
+    plan.margin.force = std::numeric_limits<double>::infinity();
+  });
   expect_rejected("negative margin", [](Plan& plan) { plan.margin.place = -1.0; });
   expect_rejected("more slack", [](Plan& plan) { plan.pushes[0].slack += 0.01; });
   expect_rejected("no slack", [](Plan& plan) { plan.pushes[1].slack = kNan; });
